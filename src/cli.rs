@@ -414,6 +414,7 @@ fn run_job(cli: JobArgs) -> u8 {
         if stdout().is_terminal() { Box::new(stdout()) } else { Box::new(BufWriter::with_capacity(1 << 16, stdout())) };
     let mut session = Session::new(Output::new(folder, screen, Box::new(stderr()), colour));
     session.job.output.columns = screen_columns;
+    session.job.output.lines = screen_lines;
     session.job.settings.batch = cli.batch;
     // a terminal that goes on to give records asks in its own way
     session.job.ask = Some(Arc::new(ask_standard_input));
@@ -503,6 +504,12 @@ fn over_break(verdict: &Verdict) -> String {
 fn screen_columns() -> Option<usize> {
     let size = || terminal_size::terminal_size_of(stdout());
     stdout().is_terminal().then(|| size().map(|(width, _)| usize::from(width.0)).filter(|w| *w > 0).unwrap_or(80))
+}
+
+/// Lines of standard output when it is a terminal; one that does not say has 24.
+fn screen_lines() -> Option<usize> {
+    let size = || terminal_size::terminal_size_of(stdout());
+    stdout().is_terminal().then(|| size().map(|(_, height)| usize::from(height.0)).filter(|h| *h > 0).unwrap_or(24))
 }
 
 fn input(cli: &JobArgs, terminal: bool) -> Result<(RecordSource, PathBuf), UsageError> {

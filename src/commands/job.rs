@@ -1,6 +1,7 @@
 //! The job that commands act on: model, units, menus, titles, settings, output.
 
 use crate::commands::environment::bathymetry::Soundings;
+use crate::commands::journal::Journal;
 use crate::commands::menu;
 use crate::commands::model::element::DeferredElement;
 use crate::commands::model::hydrodynamics::TotalData;
@@ -10,11 +11,12 @@ use crate::commands::model::shapes::SectionShape;
 use crate::commands::output::buildg::Building;
 use crate::commands::solve::frequency::FrequencyMenu;
 use crate::commands::solve::hstatics::HydrostaticsMenu;
+use crate::commands::undo::UndoStates;
 use crate::commands::verdict::Verdict;
 use crate::report::disposition::Disposition;
 use crate::report::files::{FilePlace, Question};
 use crate::report::output::Output;
-use crate::report::page::PageHead;
+use crate::report::page::{self, PageHead};
 use indexmap::IndexMap;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -154,6 +156,10 @@ pub struct DeviceSettings {
     pub auxiliary: Option<PathBuf>,
     /// Columns and lines of a terminal plot, when they were set.
     pub plot_size: Option<(usize, usize)>,
+    /// Reports are as wide as their columns, whatever the screen has.
+    pub wide: bool,
+    /// What is longer than the screen is shown a screen at a time.
+    pub pages: bool,
 }
 
 impl Default for DeviceSettings {
@@ -168,6 +174,8 @@ impl Default for DeviceSettings {
             figure_number: 1,
             auxiliary: None,
             plot_size: None,
+            wide: false,
+            pages: true,
         }
     }
 }
@@ -310,7 +318,7 @@ pub struct Job {
     /// BEAM and PLATE records of an open INMODEL, waiting for their classes and nodes.
     pub deferred_elements: Vec<DeferredElement>,
     /// Sections of `&DATA SHAPES`, by key.
-    pub shapes: HashMap<String, SectionShape>,
+    pub shapes: IndexMap<String, SectionShape>,
     /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
     pub deferred_assemblies: Vec<Args>,
     /// Files of `&FILE`.
@@ -343,6 +351,10 @@ pub struct Job {
     pub verdict: Verdict,
     /// The tables that records have shown, where a program reads them.
     pub kept_tables: Option<Vec<KeptTable>>,
+    /// The records that were executed.
+    pub journal: Journal,
+    /// States that `&UNDO` goes back to; none without a terminal.
+    pub undo: Option<UndoStates>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
     pub interrupt: Arc<AtomicBool>,
 }
@@ -369,7 +381,7 @@ impl Job {
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
             deferred_elements: Vec::new(),
-            shapes: HashMap::new(),
+            shapes: IndexMap::new(),
             user_files: UserFiles::default(),
             stored_unnamed: 0,
             assignments: Vec::new(),
@@ -385,6 +397,8 @@ impl Job {
             scatter: Vec::new(),
             verdict: Verdict::default(),
             kept_tables: None,
+            journal: Journal::default(),
+            undo: None,
             interrupt: Arc::default(),
         }
     }
@@ -414,6 +428,25 @@ impl Job {
         } else {
             self.output.text(text);
         }
+    }
+
+    /// Prints what `layout` makes of the columns of the screen; without columns it is as wide as it is, which the log always has.
+    pub fn say_fitted(&mut self, layout: impl Fn(Option<usize>) -> String) {
+        let whole = layout(None);
+        if self.settings.silent {
+            return self.output.log(&whole);
+        }
+        match (self.output.columns)().filter(|_| !self.settings.wide) {
+            Some(columns) => self.output.laid_out(&layout(Some(columns)), &whole),
+            None => self.output.text(&whole),
+        }
+    }
+
+    /// Prints the reports of some tables.
+    pub fn say_tables(&mut self, tables: &[Table]) {
+        tables.iter().for_each(|table| self.keep_table(table));
+        let (units, head) = (self.units, self.page_head());
+        self.say_fitted(|width| page::render_all(tables, units, &head, width));
     }
 
     /// What is said where results of a solve are asked for that are not there: a note where one of `solves` has just been refused.

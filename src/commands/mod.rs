@@ -10,7 +10,9 @@ mod environment;
 mod files;
 pub mod functions;
 pub mod help;
+mod help_search;
 mod job;
+pub mod journal;
 pub mod menu;
 mod menus;
 mod model;
@@ -18,9 +20,11 @@ mod model_values;
 mod name_filter;
 mod output;
 mod post;
+mod report_columns;
 mod settings;
 mod solve;
 mod status;
+pub mod undo;
 pub mod verdict;
 
 use environment::{bathymetry, curves, env};
@@ -40,10 +44,11 @@ pub use output::buildg::take as take_row;
 use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
 use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
-use settings::{accepted, device, parameter, units};
+use settings::{accepted, device, history, parameter, units};
+pub(crate) use solve::summary::count;
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 use status::summary_menu;
-pub use status::{kinds as status_kinds, rows as status_rows};
+pub use status::{kinds as status_kinds, names as status_names, rows as status_rows};
 
 use std::path::PathBuf;
 use windlass_base::diagnostic::Outcome;
@@ -315,6 +320,9 @@ static LISTED: &[&Command] = &[
     &report_menu::CUTYPE,
     &file::INSERT,
     &file::USE_MAC,
+    &history::UNDO,
+    &history::HISTORY,
+    &history::SAVE,
     &message::FINISH,
     &help::HELP,
 ];

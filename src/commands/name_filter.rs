@@ -3,7 +3,7 @@
 use crate::commands::Job;
 use std::cell::Cell;
 use windlass_base::diagnostic::Severity;
-use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::span::Span;
 use windlass_base::table::{Table, TableNote};
 use windlass_base::values::Value;
@@ -63,7 +63,7 @@ impl<'a> NameFilter<'a> {
         let unused = self.given.iter().find(|(_, _, used)| wrong(used.get()));
         unused.map_or(Ok(()), |(name, span, _)| {
             let mut error = Diagnostic::error(format!("nothing among {what} is called {name}"), *span);
-            error.help.extend(did_you_mean(name, things.iter().flat_map(|t| self.model.names(*t))));
+            error.help.extend(suggest(name, things.iter().flat_map(|t| self.model.names(*t))));
             Err(error)
         })
     }

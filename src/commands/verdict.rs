@@ -1,6 +1,6 @@
 //! What a job comes to for who reads its exit code alone: results that are missing, tensions beyond a break.
 
-use windlass_model::{ConnectorSummary, Model};
+use windlass_model::{ConnectorSummary, FatigueSegment, Model};
 use windlass_solve::time::{ActionKind, Run};
 
 /// A connector whose tension exceeds a break that was given, in a state that was asked for.
@@ -60,6 +60,12 @@ pub fn check_over_break(connector: &str, summary: &ConnectorSummary, command: &'
     })
 }
 
+/// The segment of a line at its first end, by the name of its connector; none of a class without segments.
+pub fn segment_at_first_end(model: &Model, connector: &str) -> Option<FatigueSegment> {
+    let class = &model.connectors.get(&Model::key(connector))?.class;
+    model.classes.get(&Model::key(class))?.fatigue_segments().into_iter().next()
+}
+
 /// The connectors whose largest tension at the first end exceeds the break of the segment there. One that an action by its tension has
 /// released, and none has put back, has broken in the run itself.
 pub fn over_break_in(run: &Run) -> Vec<OverBreak> {
@@ -77,9 +83,8 @@ pub fn over_break_in(run: &Run) -> Vec<OverBreak> {
     let mut made = Vec::new();
     for (series, running) in run.statistics.results() {
         let Some(name) = series.name.strip_suffix(" Tension").filter(|name| !has_broken(name)) else { continue };
-        let connector = run.model.connectors.get(&Model::key(name));
-        let class = connector.and_then(|c| run.model.classes.get(&Model::key(&c.class)));
-        let segment = class.and_then(|c| c.fatigue_segments().first().filter(|s| s.break_is_given).map(|s| s.breaking));
+        let given = segment_at_first_end(&run.model, name).filter(|s| s.break_is_given);
+        let segment = given.map(|s| s.breaking);
         let Some((breaking, seen)) = segment.zip(running.summary()) else { continue };
         let over = over_break(name, Some((seen.maximum.value / breaking, 1)), "TDOM");
         made.extend(over.map(|over| OverBreak { time: Some(seen.maximum.time), ..over }));

@@ -2,7 +2,7 @@
 //! from the lexer and the specs.
 
 use crate::commands::menu;
-use crate::commands::{COMMANDS, commands_of_menu, status_kinds};
+use crate::commands::{COMMANDS, commands_of_menu, status_kinds, status_names};
 use crate::session::Session;
 use rustyline::completion::{Completer, FilenameCompleter, Pair};
 use rustyline::highlight::{CmdKind, Highlighter};
@@ -20,7 +20,7 @@ use windlass_language::functions;
 use windlass_language::select::{SearchResult, keyword};
 use windlass_language::spec::{CommandSpec, Kind as ValueKind, MenuSpec, ValueSpec};
 use windlass_language::token::{self, Token, TokenKind};
-use windlass_model::PIPE;
+use windlass_model::{EntityKind, Model, PIPE};
 
 /// Names to complete, taken from the session before each line.
 #[derive(Default)]
@@ -37,6 +37,10 @@ pub struct Known {
     fillings: Vec<String>,
     environments: Vec<String>,
     selectors: Vec<String>,
+    compartments: Vec<String>,
+    holes: Vec<String>,
+    draft_marks: Vec<String>,
+    sensors: Vec<String>,
     columns: Vec<String>,
     macros: Vec<String>,
     variables: Vec<String>,
@@ -55,7 +59,7 @@ impl Known {
         *self = Known {
             menu: Some(menu.spec()),
             bodies: model.bodies.values().map(|b| b.name.clone()).collect(),
-            parts: model.names(windlass_model::EntityKind::Part).into_iter().map(str::to_string).collect(),
+            parts: names_of_kind(model, EntityKind::Part),
             points: model.points.values().map(|p| p.name.clone()).collect(),
             classes: model.classes.values().map(|c| c.name.clone()).collect(),
             connectors: model.connectors.values().map(|c| c.name.clone()).collect(),
@@ -65,6 +69,10 @@ impl Known {
             curves: model.curves.values().map(|c| c.name.clone()).collect(),
             environments: model.environments.values().map(|e| e.name.clone()).collect(),
             selectors: model.selectors.values().map(|s| s.name.clone()).collect(),
+            compartments: names_of_kind(model, EntityKind::Compartment),
+            holes: model.holes.values().map(|h| h.name.clone()).collect(),
+            draft_marks: names_of_kind(model, EntityKind::DraftMark),
+            sensors: model.sensors.values().map(|s| s.name.clone()).collect(),
             columns: match menu {
                 crate::commands::Menu::Disposition(d) => d.table.columns().iter().map(|c| c.name.clone()).collect(),
                 _ => Vec::new(),
@@ -72,6 +80,36 @@ impl Known {
             macros: session.interpreter.macros().map(|m| m.name.clone()).collect(),
             variables: session.interpreter.variables.names().map(str::to_string).collect(),
         };
+    }
+
+    /// The names a value takes: of the sorts its declaration names, with the selectors, else of its noun.
+    fn names_for(&self, value: &ValueSpec, noun: Noun) -> Vec<String> {
+        match value.among {
+            [] => self.names_of(noun),
+            [Noun::Selector] => self.selectors.clone(),
+            nouns => nouns.iter().flat_map(|noun| self.names_of(*noun)).chain(self.selectors.iter().cloned()).collect(),
+        }
+    }
+
+    /// The names a kind of &STATUS takes.
+    fn names_of_kinds(&self, kinds: &[EntityKind]) -> Vec<String> {
+        let noun = |kind: &EntityKind| match kind {
+            EntityKind::Connector => Some(Noun::Connector),
+            EntityKind::Class => Some(Noun::Class),
+            EntityKind::Point => Some(Noun::Point),
+            EntityKind::Body => Some(Noun::Body),
+            EntityKind::Assembly => Some(Noun::Line),
+            EntityKind::Part => Some(Noun::Part),
+            EntityKind::Compartment => Some(Noun::Compartment),
+            EntityKind::Environment => Some(Noun::Environment),
+            EntityKind::Curve => Some(Noun::Curve),
+            EntityKind::Bathymetry => Some(Noun::Bathymetry),
+            EntityKind::Filling => Some(Noun::Filling),
+            EntityKind::DraftMark => Some(Noun::DraftMark),
+            EntityKind::Piece | EntityKind::Selector => None,
+        };
+        let names = kinds.iter().filter_map(noun).flat_map(|noun| self.names_of(noun));
+        names.chain(self.selectors.iter().cloned()).collect()
     }
 
     fn names_of(&self, noun: Noun) -> Vec<String> {
@@ -103,11 +141,19 @@ impl Known {
             .flatten()
             .cloned()
             .collect(),
+            Noun::Compartment => self.compartments.clone(),
+            Noun::Hole => self.holes.clone(),
+            Noun::DraftMark => self.draft_marks.clone(),
+            Noun::Sensor => self.sensors.clone(),
             Noun::Macro => self.macros.clone(),
             Noun::LineType => line_type_names().collect(),
             Noun::New => Vec::new(),
         }
     }
+}
+
+fn names_of_kind(model: &Model, kind: EntityKind) -> Vec<String> {
+    model.names(kind).into_iter().map(str::to_string).collect()
 }
 
 fn line_type_names() -> impl Iterator<Item = String> {
@@ -149,6 +195,15 @@ fn spec_of(menu: &'static MenuSpec, text: &str, words: &[Token]) -> Option<(&'st
             let names = commands_of_menu(menu).map(|c| c.spec).chain(CONTROL).map(|s| (s.name, s.owner, s));
             if let SearchResult::One(spec) = keyword(word(0)?, names) { Some((spec, 1)) } else { None }
         }
+    }
+}
+
+/// What the names of the kind of a `&STATUS` record are of.
+fn kind_of_status(text: &str, words: &[Token]) -> &'static [EntityKind] {
+    let word = words.get(1).and_then(|t| text.get(t.range.clone())).unwrap_or_default();
+    match keyword(word, status_kinds()) {
+        SearchResult::One(name) => status_names(name),
+        _ => &[],
     }
 }
 
@@ -265,9 +320,12 @@ impl Completer for Assistant {
             } else if let (false, Some((value, _))) = (begins_option, expected) {
                 match value.kind {
                     ValueKind::Choice(choices) => candidates.extend(choices.iter().map(|c| (*c).to_string())),
-                    ValueKind::Name(noun) => candidates.extend(known.names_of(noun)),
+                    ValueKind::Name(_) if spec.name == "&STATUS" => {
+                        candidates.extend(known.names_of_kinds(kind_of_status(head, &words)));
+                    }
+                    ValueKind::Name(noun) => candidates.extend(known.names_for(value, noun)),
                     ValueKind::ChoiceOrName(choices, noun) => {
-                        candidates.extend(choices.iter().map(|c| (*c).to_string()).chain(known.names_of(noun)));
+                        candidates.extend(choices.iter().map(|c| (*c).to_string()).chain(known.names_for(value, noun)));
                     }
                     ValueKind::File => {
                         drop(known);

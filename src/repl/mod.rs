@@ -2,7 +2,9 @@
 
 mod assist;
 
+use crate::commands::undo::UndoStates;
 use crate::report::files::Question;
+use crate::report::pager::Pager;
 use crate::session::{Session, SessionEnd};
 use assist::{Assistant, Known};
 use rustyline::config::Configurer;
@@ -12,7 +14,7 @@ use rustyline::{
     Cmd, CompletionType, ConditionalEventHandler, Config, Editor, Event, EventContext, EventHandler, KeyEvent,
     RepeatCount,
 };
-use std::io::{BufRead, Write};
+use std::io::{BufRead, IsTerminal, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use windlass_base::printable::printable;
@@ -43,11 +45,18 @@ pub fn run(session: &mut Session, terminal: bool) {
     let question: Question = Arc::new(move |prompt: &str| answer(&asked, &printable(prompt)));
     session.job.output.folder.question = terminal.then(|| Arc::clone(&question));
     session.job.ask = Some(question);
+    if terminal && std::io::stdout().is_terminal() {
+        session.job.output.pager = Pager::new(std::env::var_os("PAGER"), std::env::var_os("LESS"));
+    }
     if terminal {
-        session.job.say("windlass: &HELP lists the commands, Tab completes, Ctrl-D leaves");
+        session
+            .job
+            .say("windlass: help lists the commands, help WORD looks for a word, Tab completes, quit or Ctrl-D leaves");
     }
     let mut line_number = 1;
+    session.job.undo = Some(UndoStates::default());
     while session.run() == SessionEnd::NeedLine {
+        UndoStates::take(&mut session.job);
         session.job.output.flush();
         if let Ok(mut known) = known.lock() {
             known.update(session);

@@ -4,7 +4,7 @@
 //! Source: [MOSES-REF disp_men]. The surplus columns it drops are those beyond what a command takes; a number
 //! of no column is an error.
 
-use windlass_base::diagnostic::did_you_mean;
+use windlass_base::diagnostic::suggest;
 use windlass_base::table::{Column, Table};
 use windlass_base::wildcard::matches;
 
@@ -77,7 +77,7 @@ pub fn choose(table: &Table, selector: &str) -> Result<Vec<usize>, NoSuchColumn>
     let names: Vec<&str> = table.columns().iter().map(|c| c.name.as_str()).collect();
     let several: Vec<&str> = prefix.iter().filter_map(|i| names.get(*i).copied()).collect();
     let help = if several.is_empty() {
-        did_you_mean(selector, names)
+        suggest(selector, names)
     } else {
         Some(format!("it could be {}", several.join(" or ")))
     };

@@ -11,6 +11,7 @@ pub mod format;
 pub mod netcdf;
 pub mod output;
 pub mod page;
+pub mod pager;
 pub mod parquet;
 pub mod picture;
 pub mod plot;

@@ -1,4 +1,4 @@
-//! Tables as NetCDF-3: a variable for each column over the dimension `row`, with its unit and its name in full.
+//! Tables as NetCDF-3: a variable for each column over the dimension `row`, with the name that it has in a CSV file, its unit and its name in full.
 //!
 //! Source: The NetCDF Classic Format (Unidata); attributes as the CF Conventions 1.11, sections 2.5 and 3.1. Text is an array of
 //! characters. Whole numbers are 32 bits wide, and doubles where that does not hold them.
@@ -56,7 +56,7 @@ enum Data {
 /// Columns that the format cannot hold, and what the writer refuses.
 pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
     let columns = stored_columns(table, units)?;
-    let names = names(columns.iter().map(|c| c.long_name.as_str()));
+    let names = names(columns.iter().map(|c| c.head.as_str()));
     let mut set = DataSet::new();
     set.add_fixed_dim(ROW, table.rows()).map_err(to_store_error)?;
     set.add_global_attr_string("title", &table.title).map_err(to_store_error)?;
@@ -141,22 +141,19 @@ fn data(values: ColumnValues) -> Data {
     }
 }
 
-/// Names of letters, digits and underscores, no two alike.
+/// The heads of columns as names of variables: what the format does not take becomes an underscore. No two are alike.
 fn names<'a>(wanted: impl Iterator<Item = &'a str>) -> Vec<String> {
     let mut made: Vec<String> = Vec::new();
     for (number, name) in wanted.enumerate() {
-        let mut plain = String::new();
-        for letter in name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }) {
-            if letter != '_' || !(plain.is_empty() || plain.ends_with('_')) {
-                plain.push(letter);
-            }
+        let taken = |c: char| c != '/' && !c.is_control();
+        let mut plain: String = name.chars().map(|c| if taken(c) { c } else { '_' }).collect();
+        let whole = |length: &usize| plain.is_char_boundary(*length);
+        plain.truncate((0..=MAX_NAME_BYTES.min(plain.len())).rev().find(whole).unwrap_or(0));
+        plain.truncate(plain.trim_end().len());
+        if plain.chars().next().is_none_or(|c| c.is_ascii() && !(c.is_ascii_alphanumeric() || c == '_')) {
+            plain.insert(0, '_');
         }
-        let mut plain = plain.trim_matches('_').to_string();
-        plain.truncate(MAX_NAME_BYTES);
-        if !plain.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            plain.insert_str(0, "column_");
-        }
-        while made.iter().any(|n| n.eq_ignore_ascii_case(&plain)) {
+        while made.contains(&plain) {
             plain = format!("{plain}_{}", number + 1);
         }
         made.push(plain);
@@ -190,22 +187,22 @@ mod tests {
             assert_eq!(set.get_global_attr_as_string("title").unwrap(), "A run");
             assert_eq!(set.get_global_attr_as_string("source").unwrap(), SOURCE);
             assert_eq!(set.dim_size("row"), Some(3));
-            assert_eq!(set.get_var_names(), ["Time", "Tension_Ten_Top", "Crit_Seg", "Name", "column_2_wide"]);
+            assert_eq!(set.get_var_names(), ["Time (s)", "Ten Top (N)", "Crit. Seg", "Name", "2 wide"]);
             let attr = |var: &str, name: &str| set.get_var_attr_as_string(var, name);
-            assert_eq!(attr("Tension_Ten_Top", "units").unwrap(), "N");
-            assert_eq!(attr("Tension_Ten_Top", "long_name").unwrap(), "Tension: Ten Top");
-            assert_eq!((attr("Crit_Seg", "units").unwrap().as_str(), attr("Name", "units")), ("1", None));
+            assert_eq!(attr("Ten Top (N)", "units").unwrap(), "N");
+            assert_eq!(attr("Ten Top (N)", "long_name").unwrap(), "Tension: Ten Top");
+            assert_eq!((attr("Crit. Seg", "units").unwrap().as_str(), attr("Name", "units")), ("1", None));
         }
-        assert_eq!(reader.read_var_f64("Time").unwrap(), [0.0, 0.1, NO_NUMBER]);
-        assert_eq!(reader.read_var_f64("Tension_Ten_Top").unwrap(), tops);
-        assert_eq!(reader.read_var_i32("Crit_Seg").unwrap(), [0, NO_WHOLE, 2]);
+        assert_eq!(reader.read_var_f64("Time (s)").unwrap(), [0.0, 0.1, NO_NUMBER]);
+        assert_eq!(reader.read_var_f64("Ten Top (N)").unwrap(), tops);
+        assert_eq!(reader.read_var_i32("Crit. Seg").unwrap(), [0, NO_WHOLE, 2]);
         assert_eq!(reader.read_var_u8("Name").unwrap(), b"A\0\0BOW\0\0\0");
-        assert_eq!(reader.read_var_f64("column_2_wide").unwrap(), [0.0, (1u64 << 40) as f64, (1u64 << 41) as f64]);
+        assert_eq!(reader.read_var_f64("2 wide").unwrap(), [0.0, (1u64 << 40) as f64, (1u64 << 41) as f64]);
     }
 
     #[test]
-    fn names_are_sanitised_and_stay_unique() {
-        let made = names(["Ten Top", "ten-top", "", "\u{e9}", "3:X", "X"].into_iter());
-        assert_eq!(made, ["Ten_Top", "ten_top_2", "column_", "column__4", "column_3_X", "X"]);
+    fn names_keep_what_the_format_takes_and_stay_unique() {
+        let made = names(["Ten Top (kips)", "DF/DX (kips/ft)", "", "\u{e9}", "%", "T/TB", "T_TB"].into_iter());
+        assert_eq!(made, ["Ten Top (kips)", "DF_DX (kips_ft)", "_", "\u{e9}", "_%", "T_TB", "T_TB_7"]);
     }
 }

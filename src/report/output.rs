@@ -1,6 +1,7 @@
 //! The channels of a job: the screen, the log, and the report file.
 
 use super::files::{FileError, JobFolder, is_unlinked};
+use super::pager::{Pager, screen_lines};
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use windlass_base::printable::printable;
@@ -9,6 +10,9 @@ use windlass_base::printable::printable;
 const LOG: &str = "LOG00001.TXT";
 /// Name of the report file.
 const REPORT: &str = "OUT00001.TXT";
+
+/// Bytes that are collected for the pager; a record that prints more is shown as it comes.
+const MOST_COLLECTED: usize = 16 << 20;
 
 /// Where everything a job says goes.
 ///
@@ -25,6 +29,12 @@ pub struct Output {
     pub colour: bool,
     /// Columns of the screen as it is now; `None` when it is no terminal.
     pub columns: fn() -> Option<usize>,
+    /// Lines of the screen as it is now; `None` when it is no terminal.
+    pub lines: fn() -> Option<usize>,
+    /// Shows what is longer than the screen, where somebody looks on.
+    pub pager: Option<Pager>,
+    /// What the record at hand has printed and the screen does not show yet.
+    collected: Option<String>,
     /// No log and no report file: a job that was given records on the command line only.
     pub keep_log: bool,
     log: Option<std::fs::File>,
@@ -57,6 +67,9 @@ impl Output {
             messages,
             colour,
             columns: || None,
+            lines: || None,
+            pager: None,
+            collected: None,
             keep_log: true,
             log: None,
             report: None,
@@ -68,10 +81,51 @@ impl Output {
 
     /// Writes text to the screen and the log; a newline is added where it lacks one.
     pub fn text(&mut self, text: &str) {
-        let text = printable(text);
-        let written = write_text(&mut self.screen, &text);
+        self.laid_out(text, text);
+    }
+
+    /// Writes text as it is laid out for the screen to the screen, and as it is laid out for files to the log.
+    pub fn laid_out(&mut self, for_screen: &str, for_log: &str) {
+        let shown = printable(for_screen);
+        match &mut self.collected {
+            Some(page) => {
+                page.push_str(&shown);
+                if !shown.ends_with('\n') {
+                    page.push('\n');
+                }
+                if page.len() > MOST_COLLECTED {
+                    self.show_collected();
+                }
+            }
+            None => self.write_screen(&shown),
+        }
+        self.log(for_log);
+    }
+
+    fn write_screen(&mut self, text: &str) {
+        let written = write_text(&mut self.screen, text);
         self.lose_screen(written);
-        self.log(&text);
+    }
+
+    /// From here on text for the screen is collected, where there is a pager, until [`Output::show_collected`].
+    pub fn collect(&mut self) {
+        if self.pager.is_some() && self.collected.is_none() {
+            self.collected = Some(String::new());
+        }
+    }
+
+    /// Shows what was collected: by the pager where it is longer than the screen, else as it is. True where the pager was asked.
+    pub fn show_collected(&mut self) -> bool {
+        let Some(page) = self.collected.take().filter(|page| !page.is_empty()) else { return false };
+        let written = self.screen.flush();
+        self.lose_screen(written);
+        let (columns, lines) = ((self.columns)().unwrap_or(80), (self.lines)().unwrap_or(usize::MAX));
+        // the prompt takes a line too
+        let is_long = screen_lines(&page, columns) >= lines;
+        if !is_long || !self.pager.as_ref().is_some_and(|pager| pager.show(&page)) {
+            self.write_screen(&page);
+        }
+        is_long
     }
 
     /// Writes a message: in colour (if allowed) to the message stream, plain to the log. The text of the user in the coloured one must be
@@ -159,8 +213,9 @@ impl Output {
         }
     }
 
-    /// Empties the buffer of the screen; the files have none.
+    /// Empties the buffer of the screen, and shows what was collected; the files have none.
     pub fn flush(&mut self) {
+        self.show_collected();
         let written = self.screen.flush();
         self.lose_screen(written);
     }

@@ -23,35 +23,54 @@ pub struct PageHead {
 
 /// Widest page (characters); the box and titles are centred in the width of the table, within this.
 const MAX_PAGE_WIDTH: usize = 160;
-/// Narrowest page.
+/// Narrowest page, unless the screen is narrower.
 const MIN_PAGE_WIDTH: usize = 72;
+/// The narrowest screen for which reports are laid out; on a narrower one the terminal wraps them.
+const NARROWEST: usize = 40;
 
-/// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks.
-pub fn render(table: &Table, units: UnitSystem, head: &PageHead) -> String {
-    let body = grid(table, units);
-    let width = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(MIN_PAGE_WIDTH, MAX_PAGE_WIDTH);
+/// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks. With a `width` nothing is wider
+/// that can be folded: columns that do not fit go on in blocks below, each behind the row heads.
+pub fn render(table: &Table, units: UnitSystem, head: &PageHead, width: Option<usize>) -> String {
+    let limit = width.map(|w| w.max(NARROWEST));
+    let body = grid(table, units, limit);
+    let widest = body.iter().map(|l| l.chars().count()).max().unwrap_or(0).clamp(MIN_PAGE_WIDTH, MAX_PAGE_WIDTH);
+    let width = limit.map_or(widest, |limit| widest.min(limit));
     let mut lines = vec![String::new()];
     lines.extend(banner(head, width));
-    let spaced = space_letters(&table.title);
-    let title = format!("+++ {spaced} +++");
-    lines.push(centre(&title, width));
-    lines.push(centre(&"=".repeat(title.len()), width));
+    lines.extend(heading(&table.title, limit.map(|_| width)).iter().map(|line| centre(line, width)));
     lines.push(String::new());
     let process = if head.process.is_empty() { "DEFAULT" } else { &head.process };
-    lines.push(centre(&format!("Process is {process}: Units Are {units} Unless Specified"), width));
+    let said = format!("Process is {process}: Units Are {units} Unless Specified");
+    lines.extend(fold(&said, limit).iter().map(|line| centre(line.trim(), width)));
     lines.push(String::new());
-    lines.extend(facts(table, units));
+    lines.extend(facts(table, units).flat_map(|line| fold(&line, limit)));
     if !table.facts.is_empty() {
         lines.push(String::new());
     }
     lines.extend(body);
     if !table.notes.is_empty() {
         lines.push(String::new());
-        lines.extend(table.notes.iter().map(|n| format!("   {n}")));
+        lines.extend(table.notes.iter().flat_map(|n| fold(&format!("   {n}"), limit)));
     }
     let mut text = lines.iter().map(|l| l.trim_end()).collect::<Vec<_>>().join("\n");
     text.push('\n');
     text
+}
+
+/// The reports of some tables, one after the other.
+pub fn render_all(tables: &[Table], units: UnitSystem, head: &PageHead, width: Option<usize>) -> String {
+    tables.iter().map(|table| render(table, units, head, width)).collect::<Vec<_>>().join("\n")
+}
+
+/// The title between plus signs, spaced where there is room, and what underlines it.
+fn heading(title: &str, width: Option<usize>) -> Vec<String> {
+    let spaced = format!("+++ {} +++", space_letters(title));
+    let fits = |line: &String| width.is_none_or(|width| line.chars().count() <= width);
+    let mut lines =
+        if fits(&spaced) { vec![spaced] } else { fold(&format!("+++ {} +++", title.to_uppercase()), width) };
+    let under = lines.iter().map(|line| line.trim().len()).max().unwrap_or(0);
+    lines.push("=".repeat(under));
+    lines
 }
 
 /// The facts of a table, a line each.
@@ -67,7 +86,7 @@ pub fn listing(table: &Table, units: UnitSystem) -> Vec<String> {
     let mut lines = vec![String::new(), format!(" * * * * {} * * * *", space_letters(&table.title)), String::new()];
     let parts: [Vec<String>; 3] = [
         facts(table, units).map(|line| line.trim_end().to_string()).collect(),
-        if table.columns().is_empty() { Vec::new() } else { grid(table, units) },
+        if table.columns().is_empty() { Vec::new() } else { grid(table, units, None) },
         table.notes.iter().map(|note| format!("   {note}")).collect(),
     ];
     for part in parts.into_iter().filter(|part| !part.is_empty()) {
@@ -79,25 +98,170 @@ pub fn listing(table: &Table, units: UnitSystem) -> Vec<String> {
     lines
 }
 
-/// The rows of a table with their heads, without page head and title: what listings use.
-pub fn grid(table: &Table, units: UnitSystem) -> Vec<String> {
-    format_rows(table, units, format::report)
+/// The rows of a table with their heads, without page head and title: what listings use. With a `width` columns that do not fit go on
+/// in blocks below.
+pub fn grid(table: &Table, units: UnitSystem, width: Option<usize>) -> Vec<String> {
+    join_blocks(blocks(table, units, format::report, width))
 }
 
 /// As [`grid`] with three digits more and the row numbers `numbers` (from 0) counted from 1: what `VIEW` shows.
-pub fn view(table: &Table, numbers: &[usize], units: UnitSystem) -> Vec<String> {
-    let mut lines = format_rows(table, units, format::view);
-    let heads = lines.len().saturating_sub(numbers.len() + 1);
-    for (index, line) in lines.iter_mut().enumerate() {
-        let label = match index.checked_sub(heads) {
-            None => "     ".to_string(),
-            Some(0) => "-----".to_string(),
-            Some(row) => format!("{:>5}", numbers.get(row - 1).map_or(0, |n| n + 1)),
-        };
-        line.insert_str(0, &label);
-        line.truncate(line.trim_end().len());
+pub fn view(table: &Table, numbers: &[usize], units: UnitSystem, width: Option<usize>) -> Vec<String> {
+    let mut made = blocks(table, units, format::view, width.map(|w| w.saturating_sub(5)));
+    for lines in &mut made {
+        let heads = lines.len().saturating_sub(numbers.len() + 1);
+        for (index, line) in lines.iter_mut().enumerate() {
+            let label = match index.checked_sub(heads) {
+                None => "     ".to_string(),
+                Some(0) => "-----".to_string(),
+                Some(row) => format!("{:>5}", numbers.get(row - 1).map_or(0, |n| n + 1)),
+            };
+            line.insert_str(0, &label);
+            line.truncate(line.trim_end().len());
+        }
+    }
+    join_blocks(made)
+}
+
+/// Blocks one below the other, an empty line between them.
+fn join_blocks(blocks: Vec<Vec<String>>) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for block in blocks {
+        if !lines.is_empty() {
+            lines.push(String::new());
+        }
+        lines.extend(block);
     }
     lines
+}
+
+/// The rows of a table in as many blocks as a width makes of its columns, each with the row heads.
+fn blocks(table: &Table, units: UnitSystem, shown: CellFormat, width: Option<usize>) -> Vec<Vec<String>> {
+    let columns = table.columns();
+    let whole = || vec![format_rows(table, units, shown)];
+    let Some(limit) = width else { return whole() };
+    let widths: Vec<usize> = columns.iter().map(|column| column_width(column, units, shown)).collect();
+    let all: Vec<usize> = (0..columns.len()).collect();
+    if block_width(columns, &widths, &all) <= limit {
+        return whole();
+    }
+    let chosen = split_columns(columns, &widths, limit);
+    let part = |indices: Vec<usize>| {
+        let part = indices.into_iter().filter_map(|i| columns.get(i).cloned()).collect();
+        format_rows(&Table::from_columns("", part), units, shown)
+    };
+    chosen.into_iter().map(part).collect()
+}
+
+/// The columns of each block: the row heads, and as many of the others as fit, at least one. A group of columns stays together where a
+/// block has room for it.
+fn split_columns(columns: &[Column], widths: &[usize], limit: usize) -> Vec<Vec<usize>> {
+    let heads = row_heads(columns, widths, limit);
+    let fits = |list: &[usize]| block_width(columns, widths, list) <= limit;
+    let mut made: Vec<Vec<usize>> = Vec::new();
+    let mut block: Vec<usize> = (0..heads).collect();
+    let mut at = heads;
+    while let Some(column) = columns.get(at) {
+        let grouped = |c: &&Column| !column.group.is_empty() && c.group == column.group;
+        let run = columns.iter().skip(at).take_while(grouped).count().max(1);
+        let group: Vec<usize> = (at..at + run).collect();
+        let alone: Vec<usize> = (0..heads).chain(group.iter().copied()).collect();
+        let with = |block: &[usize], more: &[usize]| -> Vec<usize> { block.iter().chain(more).copied().collect() };
+        if !fits(&with(&block, &group)) && block.len() > heads && fits(&alone) {
+            made.push(std::mem::replace(&mut block, (0..heads).collect()));
+        }
+        for index in group {
+            if !fits(&with(&block, &[index])) && block.len() > heads {
+                made.push(std::mem::replace(&mut block, (0..heads).collect()));
+            }
+            block.push(index);
+        }
+        at += run;
+    }
+    if block.len() > heads || made.is_empty() {
+        made.push(block);
+    }
+    made
+}
+
+/// How many columns at the left say what a row is: the first, and the words beside it, within half of the width.
+fn row_heads(columns: &[Column], widths: &[usize], limit: usize) -> usize {
+    let words = columns.iter().take_while(|c| c.group.is_empty() && is_words(c)).count().max(1);
+    let mut taken = 0;
+    let narrow = widths.iter().take(words).take_while(|width| {
+        taken += **width;
+        2 * taken <= limit
+    });
+    narrow.count().clamp(1, columns.len().max(1))
+}
+
+/// Whether a column holds words.
+fn is_words(column: &Column) -> bool {
+    let text = |c: &Cell| matches!(c, Cell::Text(_));
+    column.cells.iter().any(text) && column.cells.iter().all(|c| text(c) || *c == Cell::Missing)
+}
+
+/// Characters a column takes, the blanks beside it counted.
+fn column_width(column: &Column, units: UnitSystem, shown: CellFormat) -> usize {
+    let cells = column.cells.iter().map(|cell| shown(cell, column.dim, column.digits, units).chars().count());
+    let heads = column.name.chars().count().max(column.dim.label(units).chars().count());
+    cells.max().unwrap_or(0).max(heads) + 2
+}
+
+/// Characters some columns take side by side, with the heads of their groups.
+fn block_width(columns: &[Column], widths: &[usize], chosen: &[usize]) -> usize {
+    let group = |index: &usize| columns.get(*index).map_or("", |c| c.group.as_str());
+    chosen
+        .chunk_by(|a, b| group(a) == group(b))
+        .map(|run| {
+            let have: usize = run.iter().filter_map(|i| widths.get(*i)).sum();
+            let head = run.first().map_or("", group);
+            if head.is_empty() { have } else { have.max(head.chars().count() + 3) }
+        })
+        .sum()
+}
+
+/// A line in lines of at most `width` characters; those that go on are indented to where its second column begins.
+fn fold(line: &str, width: Option<usize>) -> Vec<String> {
+    let Some(width) = width.filter(|width| line.chars().count() > *width) else { return vec![line.to_string()] };
+    let indent = hanging_indent(line).min(width / 2);
+    let start = line.chars().take_while(|c| *c == ' ').count();
+    let mut lines: Vec<String> = Vec::new();
+    let mut now = " ".repeat(start);
+    let mut empty = true;
+    // the blanks of what stands in columns are kept in the first line
+    for word in line.get(start..).unwrap_or_default().split(' ') {
+        let room = now.chars().count() + usize::from(!empty) + word.chars().count() <= width;
+        if !empty && !room && !word.is_empty() {
+            lines.push(std::mem::replace(&mut now, " ".repeat(indent)).trim_end().to_string());
+            empty = true;
+        }
+        if !empty {
+            now.push(' ');
+        }
+        if !(word.is_empty() && empty) {
+            now.push_str(word);
+            empty = false;
+        }
+    }
+    lines.push(now.trim_end().to_string());
+    lines
+}
+
+/// Where the text of a line goes on below: behind its first gap of two blanks or more, else two blanks into it.
+fn hanging_indent(line: &str) -> usize {
+    let start = line.chars().take_while(|c| *c == ' ').count();
+    let body = line.get(start..).unwrap_or_default();
+    body.find("  ").map_or(start + 2, |gap| {
+        let rest = body.get(gap..).unwrap_or_default();
+        start
+            + body.get(..gap).unwrap_or_default().chars().count()
+            + rest.chars().take_while(|c| *c == ' ' || *c == '=').count()
+    })
+}
+
+/// Text whose lines are folded to a width; without one it stays as it is.
+pub fn fold_text(text: &str, width: Option<usize>) -> String {
+    text.lines().flat_map(|line| fold(line, width.map(|w| w.max(NARROWEST)))).collect::<Vec<_>>().join("\n")
 }
 
 /// How a cell becomes text.
@@ -122,10 +286,8 @@ fn format_rows(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<Strin
         grid.add_row(row);
     }
     for (index, column) in table.columns().iter().enumerate() {
-        let text = |c: &Cell| matches!(c, Cell::Text(_));
-        let words = column.cells.iter().any(text) && column.cells.iter().all(|c| text(c) || *c == Cell::Missing);
         if let Some(place) = grid.column_mut(index) {
-            place.set_cell_alignment(if words { CellAlignment::Left } else { CellAlignment::Right });
+            place.set_cell_alignment(if is_words(column) { CellAlignment::Left } else { CellAlignment::Right });
             place.set_padding((1, 1));
         }
     }
@@ -227,7 +389,7 @@ mod tests {
             .build();
         table.note("said once");
         let head = PageHead { titles: ["Title".into(), String::new()], ..PageHead::default() };
-        let text = render(&table, UnitSystem::default(), &head);
+        let text = render(&table, UnitSystem::default(), &head, None);
         let want = "
 ************************************************************************
 *                           *** WINDLASS ***                           *
@@ -256,5 +418,55 @@ mod tests {
         };
         assert_eq!(squeeze(&text), squeeze(want), "{text}");
         assert!(text.lines().all(|l| l == l.trim_end()));
+    }
+
+    /// A table of names with groups of numbers, as of a mooring moved.
+    fn wide_table(rows: usize, groups: usize) -> Table {
+        let names: Vec<String> = (1..=rows).map(|n| format!("LINE{n}")).collect();
+        let mut made = Table::new("Forces of Connectors").with_rows(&names).text("Name", |name| name.as_str());
+        for group in 1..=groups {
+            made = made.columns(&format!("G{group}"), ["Tension", "T/MBL"], Dim::Force, Digits::Usual, |_| [1e6, 2e6]);
+        }
+        let mut table = made.build();
+        table.note("a remark of many words that goes on and on, well beyond the width of any of the screens that are tried here");
+        table
+    }
+
+    #[test]
+    fn columns_beyond_the_width_go_on_below_repeated_row_heads() {
+        let table = wide_table(3, 8);
+        let head = PageHead::default();
+        let full = render(&table, UnitSystem::default(), &head, None);
+        for width in [60, 100, 200] {
+            let text = render(&table, UnitSystem::default(), &head, Some(width));
+            assert!(text.lines().all(|line| line.chars().count() <= width), "{width}: {text}");
+            // a cell is printed once, a row head once a block
+            assert_eq!(text.matches("224.81").count() + text.matches("449.62").count(), 3 * 16, "{text}");
+            let blocks = text.matches("LINE1 ").count();
+            assert_eq!(blocks, text.matches("LINE3 ").count());
+            assert!((width == 200) == (blocks == 1), "{text}");
+            assert!((1..=8).all(|n| text.contains(&format!("- G{n} -"))), "{text}");
+        }
+        assert_eq!(full.matches("LINE1 ").count(), 1);
+        assert_eq!(render(&table, UnitSystem::default(), &head, Some(500)), full);
+    }
+
+    #[test]
+    fn numbered_rows_keep_their_numbers_in_every_block() {
+        let lines = view(&wide_table(2, 6), &[4, 6], UnitSystem::default(), Some(60));
+        assert!(lines.iter().all(|line| line.chars().count() <= 60));
+        let numbered = lines.iter().filter(|line| line.starts_with("    5") || line.starts_with("    7")).count();
+        let blocks = lines.iter().filter(|line| line.starts_with("-----")).count();
+        assert!(blocks > 1 && numbered == 2 * blocks, "{lines:?}");
+    }
+
+    #[test]
+    fn long_line_is_folded_below_its_second_column() {
+        let folded = fold_text("   -LEN L                       length of the segment between its two ends", Some(50));
+        assert_eq!(
+            folded,
+            "   -LEN L                       length of the\n                         segment between its two\n                         ends"
+        );
+        assert_eq!(fold_text("short", Some(50)), "short");
     }
 }

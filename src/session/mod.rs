@@ -12,14 +12,17 @@ mod skipped_menu;
 pub use check_report::{CheckReport, CheckWatch};
 pub use reading::{RecordReadError, read_all, read_text};
 
-use self::named::{in_menu, unknown_name_error};
+use self::named::{in_menu, plain_word, unknown_name_error};
 use self::script_check::ScriptCheck;
 use crate::commands::absent::{self, Absent};
+use crate::commands::count;
+use crate::commands::journal::Executed;
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 use windlass_aqwa as aqwa;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::span::{SourceId, Span};
@@ -72,6 +75,8 @@ pub struct Session {
     decks: Vec<(SourceId, aqwa::WrittenRecords)>,
     /// The deck that is the job, until the pages before its motion are listed.
     listed: Option<Box<aqwa::Deck>>,
+    /// What the record at hand was.
+    executed: Executed,
     /// What a check has found, where the script is only checked.
     check: Option<ScriptCheck>,
     /// The last record of this menu was unknown: records of a disposition menu that follow were meant for what it should have opened.
@@ -95,6 +100,7 @@ impl Session {
             errors_of_absent: 0,
             decks: Vec::new(),
             listed: None,
+            executed: Executed::Nothing,
             check: None,
             lost_opener: false,
         }
@@ -134,6 +140,7 @@ impl Session {
                     }
                     if tag == INMODEL_FILE && matches!(self.job.menu(), Menu::Inmodel) {
                         self.leave_menu(None);
+                        self.job.journal.keep_end(self.job.menus.len());
                     }
                     false
                 }
@@ -248,8 +255,16 @@ impl Session {
             self.job.output.text(&format!("> {text}"));
         }
         self.job.output.folder.typed = self.interpreter.reads_what_is_typed();
+        let interrupted = self.job.is_interrupted();
+        if self.interactive && self.job.settings.pages && self.interpreter.reads_what_is_typed() {
+            self.job.output.collect();
+        }
         let over =
             if self.check.is_some() { self.check_record(record, text) } else { self.execute_record(record, text) };
+        if self.job.output.show_collected() && !interrupted {
+            // Ctrl-C within the pager is meant for the pager
+            self.job.interrupt.store(false, Ordering::Relaxed);
+        }
         self.job.output.folder.typed = false;
         for path in self.job.output.folder.read_outside() {
             self.job.output.log(&format!("read {}, outside of the script's folder", path.display()));
@@ -264,6 +279,7 @@ impl Session {
         let asked = self.job.last_severity;
         self.job.last_severity = None;
         let open_menus = self.job.menus.len();
+        self.executed = Executed::Nothing;
         let outcome = self.dispatch(record, &words);
         self.keep_opened_table(open_menus);
         for notice in std::mem::take(&mut self.job.notices) {
@@ -277,6 +293,8 @@ impl Session {
                 return fatal;
             }
         };
+        self.keep_in_journal(text, &words, &effect);
+        self.say_opened_menu(open_menus);
         // a record that only speaks keeps the severity it may be about to ask for
         if self.job.last_severity.is_none() && text.get(..5).is_some_and(|t| t.eq_ignore_ascii_case("&TYPE")) {
             self.job.last_severity = asked;
@@ -350,10 +368,48 @@ impl Session {
         }
     }
 
+    /// Keeps a record that was executed; of one that reads a file the records of the file are kept, and its menu where it has one.
+    fn keep_in_journal(&mut self, text: &str, words: &[Word], effect: &Effect) {
+        if self.check.is_some() {
+            return;
+        }
+        let open_menus = self.job.menus.len();
+        let reads_menu = matches!(effect, Effect::Insert { tag: INMODEL_FILE, .. });
+        let executed = match effect {
+            Effect::Insert { .. } | Effect::Deck { .. } if !reads_menu => Executed::Nothing,
+            _ => self.executed,
+        };
+        self.job.journal.keep(text, words, executed, open_menus);
+    }
+
+    /// Says what a record has opened and how to leave it: of a result always, of a menu to who types.
+    fn say_opened_menu(&mut self, open: usize) {
+        if self.job.menus.len() <= open || self.check.is_some() {
+            return;
+        }
+        let typed = self.interactive && self.interpreter.reads_what_is_typed();
+        let text = match self.job.menu() {
+            Menu::Disposition(result) => {
+                let (rows, columns) = (result.table.rows(), result.table.columns().len());
+                let leave = if typed { "; &HELP lists what can be done, END returns" } else { "; END returns" };
+                format!("{}: {} of {}{leave}", result.table.title, count(rows, "row"), count(columns, "column"))
+            }
+            Menu::Refused(_) | Menu::Checked(_) => return,
+            menu if typed => {
+                let (name, end) = (menu.name(), menu.end());
+                let leave = if end == "END" { "END leaves it".to_string() } else { format!("END or {end} leaves it") };
+                format!("menu {name} is open: {leave}, &HELP lists its records")
+            }
+            _ => return,
+        };
+        self.job.say(&text);
+    }
+
     /// Finds what a record means and does it.
     fn dispatch(&mut self, record: &Record, words: &[Word]) -> Outcome<Effect> {
         let Some(first) = words.first() else {
             if matches!(self.job.menu(), Menu::Building(table) if table.is_brief() && table.has_rows()) {
+                self.executed = Executed::Row;
                 self.leave_menu(Some(record.whole()));
             }
             return Ok(Effect::Done);
@@ -366,9 +422,11 @@ impl Session {
             return Ok(Effect::Done);
         }
         if matches!(self.job.menu(), Menu::Building(_)) && first.kind != TokenKind::Internal {
+            self.executed = Executed::Row;
             return commands::take_row(&mut self.job, record);
         }
         if matches!(self.job.menu(), Menu::Shapes) && first.kind != TokenKind::Internal {
+            self.executed = Executed::Row;
             return commands::take_shape(&mut self.job, words);
         }
         if matches!(self.job.menu(), Menu::Surface)
@@ -387,7 +445,11 @@ impl Session {
         let Some(first) = words.first() else { return Ok(Effect::Done) };
         let meaning = match self.resolve(first) {
             Ok(meaning) => meaning,
-            Err(error) => return self.without_cascade(first, error),
+            Err(error) => match plain_word(&first.text) {
+                Some(command) if command.spec.name != "&FINISH" || self.interactive => Meaning::Command(command),
+                Some(_) => return Err(error.help("&FINISH ends a script")),
+                None => return self.without_cascade(first, error),
+            },
         };
         self.lost_opener = false;
         match meaning {
@@ -441,6 +503,7 @@ impl Session {
             TextForm::Text => Args::empty(span),
         };
         let call = Call { record, words, args };
+        self.executed = Executed::Command(command);
         if self.check.is_some() && !self.runs_in_check(command, &call)? {
             return Ok(Effect::Done);
         }
@@ -492,6 +555,7 @@ impl Session {
             let text = format!("{word} leaves menu {}; `{}` behind it is not read", menu.name(), surplus.text);
             self.job.warn(text, surplus.span);
         }
+        self.executed = Executed::Row;
         self.leave_menu(Some(first.span));
         Ok(Effect::Done)
     }

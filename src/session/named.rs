@@ -22,6 +22,16 @@ pub(super) fn in_menu(name: &str, menu: &Menu, first: &Word) -> Outcome<&'static
     })
 }
 
+/// The command that a word of everyday use asks for, where it names nothing else.
+pub(super) fn plain_word(word: &str) -> Option<&'static Command> {
+    let name = match word.to_ascii_uppercase().as_str() {
+        "HELP" | "?" => "&HELP",
+        "QUIT" | "EXIT" | "BYE" => "&FINISH",
+        _ => return None,
+    };
+    COMMANDS.iter().copied().find(|command| command.spec.name == name)
+}
+
 /// The error for a word that names nothing here: where it would, or what is near.
 pub(super) fn unknown_name_error<'a>(
     first: &Word,

@@ -25,6 +25,8 @@ mod program {
     mod picture;
     mod script_check;
     mod table_vary;
+    mod terminal;
+    mod undo;
     mod verification;
 }
 

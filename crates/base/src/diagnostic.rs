@@ -120,8 +120,62 @@ pub fn did_you_mean<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) ->
     }
 }
 
+/// The nearest names for a help line, else those there are; `None` where there is none. A word with `*` behind its beginning is taken for
+/// a pattern of another program.
+pub fn suggest<'a>(word: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    /// Names written out.
+    const MAX_NAMES: usize = 8;
+    if let Some(hint) = wild_hint(word) {
+        return Some(hint);
+    }
+    let all: Vec<&str> = names.into_iter().collect();
+    did_you_mean(word, all.iter().copied()).or_else(|| {
+        let listed = all.iter().take(MAX_NAMES).copied().collect::<Vec<_>>().join(" ");
+        let more = all.len().saturating_sub(MAX_NAMES);
+        let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+        (!all.is_empty()).then(|| format!("known: {listed}{more}"))
+    })
+}
+
+/// What to write instead of a word with `*` or `?` as wild characters; `None` of other words.
+pub fn wild_hint(word: &str) -> Option<String> {
+    let rest = word.get(1..).unwrap_or_default();
+    rest.contains(['*', '?']).then(|| {
+        let written: String = word
+            .char_indices()
+            .map(|(at, c)| match c {
+                '*' if at > 0 => '@',
+                '?' if at > 0 => '/',
+                other => other,
+            })
+            .collect();
+        format!("the wild character is @ for any run of characters, / for one: {written}")
+    })
+}
+
 /// A noun with its article: `a curve`, `an environment`.
 pub fn with_article(noun: &str) -> String {
     let article = if noun.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
     format!("{article} {noun}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_unknown_name_gets_the_names_there_are() {
+        assert_eq!(suggest("*Q", ["*P1", "*MLA"]).unwrap(), "known: *P1 *MLA");
+        assert_eq!(suggest("*MLB", ["*P1", "*MLA"]).unwrap(), "did you mean *MLA?");
+        assert_eq!(suggest("C", []), None);
+        let many: Vec<String> = (1..=10).map(|n| format!("LINE{n}")).collect();
+        assert!(suggest("Q", many.iter().map(String::as_str)).unwrap().ends_with("LINE8 and 2 more"));
+    }
+
+    #[test]
+    fn star_as_wild_character_is_answered_with_the_right_one() {
+        assert!(suggest("TEN*", ["Ten Top"]).unwrap().ends_with(": TEN@"));
+        assert!(suggest("*P*", ["*P1"]).unwrap().ends_with(": *P@"));
+        assert_eq!((wild_hint("*P"), wild_hint("TEN@"), wild_hint("")), (None, None, None));
+    }
 }

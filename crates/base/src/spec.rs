@@ -78,6 +78,8 @@ pub struct ValueSpec {
     pub need: Need,
     /// Where it must lie.
     pub range: Range,
+    /// Of a name that may be of several sorts, the sorts that completion offers; none: all.
+    pub among: &'static [Noun],
     /// One line of help.
     pub help: &'static str,
 }
@@ -85,7 +87,7 @@ pub struct ValueSpec {
 impl ValueSpec {
     /// A value that must be there.
     pub const fn new(name: &'static str, kind: Kind, help: &'static str) -> Self {
-        ValueSpec { name, kind, need: Need::Required, range: Range::Any, help }
+        ValueSpec { name, kind, need: Need::Required, range: Range::Any, among: &[], help }
     }
 
     /// A word of an enum that must be there.
@@ -111,6 +113,11 @@ impl ValueSpec {
     /// The same, but between two bounds (user units).
     pub const fn in_range(self, low: f64, high: f64) -> Self {
         ValueSpec { range: Range::Within(low, high), ..self }
+    }
+
+    /// The same, a name of one of these sorts, or a selector or pattern that chooses among them.
+    pub const fn among(self, nouns: &'static [Noun]) -> Self {
+        ValueSpec { among: nouns, ..self }
     }
 
     /// True when the value must be there.

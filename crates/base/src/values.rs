@@ -33,6 +33,14 @@ pub enum Noun {
     Bathymetry,
     /// What pipes hold, kept under a name.
     Filling,
+    /// An interior compartment.
+    Compartment,
+    /// A hole of a compartment.
+    Hole,
+    /// A draft mark.
+    DraftMark,
+    /// A sensor.
+    Sensor,
     /// A line type of the library.
     LineType,
     /// A new name, not to be looked up.

@@ -233,6 +233,10 @@ pub fn describe_expected(kind: Kind, units: UnitSystem) -> String {
             Noun::Macro => "a macro",
             Noun::Bathymetry => "a bathymetry",
             Noun::Filling => "a set of T_PRESSURE data",
+            Noun::Compartment => "a compartment",
+            Noun::Hole => "a hole",
+            Noun::DraftMark => "a draft mark",
+            Noun::Sensor => "a sensor",
             Noun::LineType => "a line type",
             Noun::New => "a name",
         }

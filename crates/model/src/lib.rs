@@ -96,7 +96,7 @@ pub use unmodelled::{SolveKind, UnmodelledEffect};
 use indexmap::IndexMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::geometry::Position;
 use windlass_base::pose::Pose;
 use windlass_base::span::Span;
@@ -463,10 +463,9 @@ pub fn list_names(names: &[&str]) -> String {
 pub fn find<'a, T>(table: &'a IndexMap<String, T>, name: &str, what: &str, span: Span) -> Outcome<&'a T> {
     table.get(&Model::key(name)).ok_or_else(|| {
         let mut error = Diagnostic::error(format!("unknown {what} {name}"), span);
-        match did_you_mean(name, table.keys().map(String::as_str)) {
+        match suggest(name, table.keys().map(String::as_str)) {
             Some(help) => error.help.push(help),
-            None if table.is_empty() => error.help.push(format!("no {what} is defined yet")),
-            None => {}
+            None => error.help.push(format!("no {what} is defined yet")),
         }
         error
     })

@@ -65,7 +65,8 @@ pub(crate) fn doubts(model: &Model, env: &Environment, args: &Args, units: UnitS
             warn(text, at);
         }
     }
-    if let Some((speed, at)) = given(&WIND).filter(|(speed, _)| *speed > HIGHEST_WIND) {
+    let wind = given(&WIND).and_then(|(_, at)| env.wind.map(|wind| (wind.speed, at)));
+    if let Some((speed, at)) = wind.filter(|(speed, _)| *speed > HIGHEST_WIND) {
         let speed = format_value(speed, Dim::WindSpeed, units);
         warn(format!("a wind of {speed}: the highest on record over a minute had 185 knots"), at);
     }

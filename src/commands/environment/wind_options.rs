@@ -2,19 +2,52 @@
 
 use crate::commands::Job;
 use crate::commands::environment::env::{PERIODS, curve, formula, known_curve, number, periods, spectrum};
+use windlass_base::choices;
 use windlass_base::diagnostic::Outcome;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, METRES_PER_SECOND_PER_KNOT};
 use windlass_base::values::{Given, Noun};
 use windlass_hydro::gusts;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::{CurveKind, CurveReference, Environment, FormulaChoice, GustParts, Wind, WindCode, WindLaw};
 
+choices! {
+    /// The unit of a speed of wind.
+    #[derive(Default)]
+    pub(crate) enum WindUnit {
+        #[default]
+        Knots = "KNOTS",
+        MetresPerSecond = "M/S",
+        FeetPerSecond = "FT/S",
+        KilometresPerHour = "KM/H",
+        MilesPerHour = "MPH",
+    }
+}
+
+impl WindUnit {
+    /// A speed (m/s) of a number that was read as knots and is in this unit.
+    fn speed(self, read: f64) -> f64 {
+        let per_knot = match self {
+            WindUnit::Knots => return read,
+            WindUnit::MetresPerSecond => 1.0,
+            WindUnit::FeetPerSecond => 0.3048,
+            WindUnit::KilometresPerHour => 1.0 / 3.6,
+            // the statute mile, 5280 ft
+            WindUnit::MilesPerHour => 5280.0 * 0.3048 / 3600.0,
+        };
+        read / METRES_PER_SECOND_PER_KNOT * per_knot
+    }
+}
+
 /// -WIND.
 pub(crate) const WIND: OptionSpec = OptionSpec::new(
     "-WIND",
-    &[number("SPEED", Dim::WindSpeed, "speed").not_negative(), number("DIR", Dim::Angle, "direction it comes from")],
-    "wind, in knots",
+    &[
+        number("SPEED", Dim::WindSpeed, "speed").not_negative(),
+        number("DIR", Dim::Angle, "direction it comes from"),
+        ValueSpec::choice::<WindUnit>("UNIT", "the unit of SPEED").or("KNOTS, whatever &DIMEN says"),
+    ],
+    "wind, in knots unless UNIT says otherwise",
 )
 .default("none");
 
@@ -77,6 +110,8 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
     match given {
         _ if given.is(&WIND) => {
             let [speed, direction] = const { WIND.numbers(["SPEED", "DIR"]) }.map(|key| given.number(key));
+            let unit = given.choice(const { WIND.choice::<WindUnit>("UNIT") }).unwrap_or_default();
+            let speed = speed.map(|speed| unit.speed(speed));
             env.wind = speed.zip(direction).map(|(speed, direction)| Wind { speed, direction });
         }
         _ if given.is(&PROFILE) => {

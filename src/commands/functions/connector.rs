@@ -8,7 +8,7 @@ use crate::commands::status::forces::{ConnectorForces, find_forces};
 use nalgebra::Vector3;
 use windlass_base::choice::Choice;
 use windlass_base::choices;
-use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_language::record::Word;
@@ -119,7 +119,7 @@ fn find_element<'m>(model: &'m Model, name: &Word) -> Outcome<ElementSubject<'m>
     }
     let mut error = Diagnostic::error(format!("unknown element {}", name.text), name.span);
     let known = [EntityKind::Connector, EntityKind::Piece].into_iter().flat_map(|kind| model.names(kind));
-    error.help.extend(did_you_mean(&name.text, known));
+    error.help.extend(suggest(&name.text, known));
     error.help.push("the elements of windlass are its connectors, BEAMs, PLATEs and the tubes of its hulls".into());
     Err(error)
 }

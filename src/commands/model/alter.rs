@@ -84,7 +84,9 @@ const ACTIVE: OptionSpec = OptionSpec::new("-ACTIVE", &[], "the connector acts")
 const INACTIVE: OptionSpec = OptionSpec::new("-INACTIVE", &[], "the connector does not act").many();
 
 static SPEC: CommandSpec = CommandSpec {
-    data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")],
+    data: &[
+        ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector").among(&[Noun::Connector])
+    ],
     repeat: 1,
     interleaved: true,
     options: &[

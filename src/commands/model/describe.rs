@@ -64,7 +64,7 @@ const IGNORE: OptionSpec = OptionSpec::new(
 
 const ASSOCIATE: OptionSpec = OptionSpec::new(
     "-ASSOCIATE",
-    &[ValueSpec::new("POINT", Kind::Name(Noun::Selector), "a point, a pattern or a selector")],
+    &[ValueSpec::new("POINT", Kind::Name(Noun::Selector), "a point, a pattern or a selector").among(&[Noun::Point])],
     "the points of INTEREST",
 )
 .repeating(1);
@@ -113,6 +113,7 @@ static DESCRIBE_SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "its name; of INTEREST a point, a pattern or a selector")
             .or("PIECE1, PIECE2 .. of a PIECE; not of INTEREST -ASSOCIATE nor of SENSOR -ON, -OFF and -DELETE; the others need one"),
         ValueSpec::new("POINT", Kind::Name(Noun::Selector), "further points of INTEREST; the two points of DMARK")
+            .among(&[Noun::Point])
             .or("none"),
     ],
     repeat: 1,
@@ -165,7 +166,7 @@ const CONDITION: OptionSpec = OptionSpec::new(
 pub(super) const DRAFT: OptionSpec = OptionSpec::new(
     "-DRAFT",
     &[
-        ValueSpec::new("DMARK", Kind::Name(Noun::Selector), "a draft mark"),
+        ValueSpec::new("DMARK", Kind::Name(Noun::Selector), "a draft mark").among(&[Noun::DraftMark]),
         number("DRAFT", Dim::Length, "the draft along it"),
     ],
     "brings the body of one to three draft marks to these drafts",

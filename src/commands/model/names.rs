@@ -3,7 +3,7 @@
 use crate::commands::menu;
 use crate::commands::{Call, Command, Effect, Job};
 use std::sync::Arc;
-use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::span::Span;
 use windlass_base::values::Content;
 use windlass_base::values::Noun;
@@ -55,7 +55,7 @@ fn delete(job: &mut Job, call: &Call) -> Outcome<Effect> {
             all.iter().filter(|(_, name)| fits(name)).map(|(thing, name)| (*thing, name.to_string())).collect();
         if chosen.is_empty() {
             let mut error = Diagnostic::error(format!("nothing is called {pattern}"), value.span);
-            error.help.extend(did_you_mean(pattern, all.iter().map(|(_, name)| *name)));
+            error.help.extend(suggest(pattern, all.iter().map(|(_, name)| *name)));
             return Err(error);
         }
         for (thing, name) in &chosen {
@@ -164,7 +164,7 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let Some(thing) = found else {
         let mut error =
             Diagnostic::error(format!("no connector, class, point, body or assembly is called {old}"), span);
-        error.help.extend(did_you_mean(old, known.iter().filter(|(t, _)| renamed(t)).map(|(_, name)| *name)));
+        error.help.extend(suggest(old, known.iter().filter(|(t, _)| renamed(t)).map(|(_, name)| *name)));
         return Err(error);
     };
     name::check(new, name::marker(old), thing.word(), place)?;

@@ -25,7 +25,9 @@ const OPTIONS: &[OptionSpec] = &[SELECT_OPTION, EXCEPT];
 
 static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMost(&menu::SELECT, 0),
-    data: &[ValueSpec::new(":NAME", Kind::Name(Noun::Selector), "the selector").or("a menu of selectors")],
+    data: &[ValueSpec::new(":NAME", Kind::Name(Noun::Selector), "the selector")
+        .among(&[Noun::Selector])
+        .or("a menu of selectors")],
     options: OPTIONS,
     detail: "@ stands for any run of characters, / for exactly one. A selector given again is replaced. &SELECT alone opens a \
              menu of records :NAME -SELECT NAME .. -EXCEPT NAME .., up to END.",

@@ -20,6 +20,12 @@ pub struct SectionShape {
     args: Args,
 }
 
+impl std::fmt::Debug for SectionShape {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SectionShape").field("kind", &self.kind.spec.name).field("args", &self.args).finish()
+    }
+}
+
 impl SectionShape {
     /// Its record with the options of a class behind its own.
     pub fn with_options(self, class: Args) -> Args {

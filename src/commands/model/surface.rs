@@ -213,7 +213,7 @@ pub(super) fn known_piece(job: &Job, name: &str, span: Span) -> Outcome<Piece> {
         return Ok(piece.clone());
     }
     let mut error = Diagnostic::error(format!("unknown piece {name}"), span);
-    error.help.extend(windlass_base::diagnostic::did_you_mean(name, job.model.names(EntityKind::Piece)));
+    error.help.extend(windlass_base::diagnostic::suggest(name, job.model.names(EntityKind::Piece)));
     Err(error)
 }
 
@@ -478,7 +478,7 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let by = Place::new(args.numbers_or_zero(const { MOVE_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let known = job.model.names(windlass_model::EntityKind::Piece);
-    let help = windlass_base::diagnostic::did_you_mean(name, known);
+    let help = windlass_base::diagnostic::suggest(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
         let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(NAME));
         error.help.extend(help);
@@ -492,7 +492,9 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
 
 fn list_block(job: &mut Job, _: &Call) -> Outcome<Effect> {
     let table = pieces(&job.model, &|_| true);
-    Ok(Effect::Say(page::grid(&table, job.units).join("\n")))
+    let units = job.units;
+    job.say_fitted(|width| page::grid(&table, units, width).join("\n"));
+    Ok(Effect::Done)
 }
 
 /// VERTEX.

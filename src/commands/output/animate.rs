@@ -57,7 +57,9 @@ static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     data: &[
         ValueSpec::new("FILE", Kind::File, "file name ending in .html or .vtk; .html is added when it has no ending"),
-        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector")
+            .among(&[Noun::Connector, Noun::Body])
+            .or("all"),
     ],
     repeat: 1,
     options: &[EVENTS, POINTS_OPTION, HEADING],

@@ -53,6 +53,13 @@ pub(crate) const EVENTS: OptionSpec = OptionSpec::new(
 pub(crate) const HARD: OptionSpec = OptionSpec::new("-HARD", &[], "to the report file OUT00001.TXT");
 /// -BOTH.
 pub(crate) const BOTH: OptionSpec = OptionSpec::new("-BOTH", &[], "to the screen and the report file");
+/// -WIDE.
+pub(crate) const WIDE: OptionSpec = OptionSpec::new(
+    "-WIDE",
+    &[],
+    "as wide as the columns; without it columns that do not fit a terminal go on below, behind the row heads",
+)
+.owner(Owner::Ours);
 /// -DISPOSE.
 pub(crate) const DISPOSE: OptionSpec = OptionSpec::new(
     "-DISPOSE",
@@ -106,7 +113,7 @@ pub(crate) const ANY_COLUMN: ValueSpec = COLUMN.or("all columns");
 static REPORT_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, EVENTS, HARD, BOTH, HEADING],
+    options: &[RECORD, VALUES, EVENTS, HARD, BOTH, WIDE, HEADING],
     detail: "The formatted report; C_SCALE and C_SHIFT do not act on it. The name of a group of columns, as of LOCATION, VELOCITY and \
              ACCELERATION of a TRAJECTORY, is all of it, after the first column.",
     ..spec("REPORT", "prints the formatted report")
@@ -115,7 +122,7 @@ static VLIST_SPEC: CommandSpec = spec("VLIST", "lists the columns with their uni
 static VIEW_SPEC: CommandSpec = CommandSpec {
     data: &[ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, HEADING, MAG_USE],
+    options: &[RECORD, VALUES, HARD, BOTH, WIDE, HEADING, MAG_USE],
     detail: "With row numbers and three digits more than the report; C_SCALE and C_SHIFT act.",
     ..spec("VIEW", "shows columns")
 };
@@ -229,22 +236,30 @@ fn chosen_rows(job: &Job, args: &Args, columns: &[Value], rows: &RowChoice) -> O
     Ok(table)
 }
 
-/// Sends text where -HARD and -BOTH say.
-pub(crate) fn send(job: &mut Job, args: &Args, text: &str) -> Outcome<()> {
+/// Sends what `layout` makes of a width where -HARD and -BOTH say: to the screen as wide as that is, unless -WIDE, to files as wide as
+/// it is.
+pub(crate) fn send(job: &mut Job, args: &Args, layout: impl Fn(Option<usize>) -> String) -> Outcome<()> {
     let hard = args.has(&HARD) || args.has(&BOTH);
     let heading = args
         .option_if_declared(&HEADING)
         .and_then(|given| given.first_word())
         .map(|h| format!("{h}\n\n"))
         .unwrap_or_default();
-    let text = format!("{heading}{text}");
+    let layout = |width| format!("{heading}{}", layout(width));
     if hard {
-        job.output.hard(&text).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
+        job.output.hard(&layout(None)).map_err(|e| Diagnostic::error(e.to_string(), args.span))?;
     }
     if !hard || args.has(&BOTH) {
-        job.say(&text);
+        let wide = args.option_if_declared(&WIDE).is_some();
+        job.say_fitted(|width| layout(width.filter(|_| !wide)));
     }
     Ok(())
+}
+
+/// Sends the reports of some tables where -HARD, -BOTH and -WIDE say.
+pub(crate) fn send_tables(job: &mut Job, args: &Args, tables: &[Table]) -> Outcome<()> {
+    let (units, head) = (job.units, job.page_head());
+    send(job, args, |width| page::render_all(tables, units, &head, width))
 }
 
 /// Opens the disposition menu over the one of some tables that -DISPOSE asks for. Statistics of it leave out the instants before
@@ -278,9 +293,7 @@ pub(crate) fn print_or_dispose(job: &mut Job, args: &Args, tables: &[Table], whe
     if open_chosen_table(job, args, tables, when)? {
         return Ok(Effect::Done);
     }
-    let head = job.page_head();
-    let text = tables.iter().map(|table| page::render(table, job.units, &head)).collect::<Vec<_>>().join("\n");
-    send(job, args, &text)?;
+    send_tables(job, args, tables)?;
     tables.iter().for_each(|table| raise(job, table, when.1));
     Ok(Effect::Done)
 }
@@ -292,8 +305,7 @@ fn report(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .report_columns(&selectors(&args.data))
         .and_then(|c| d.extract(&c, &rows(args), false, job.units))
         .map_err(|e| to_diagnostic(args, &e))?;
-    let text = page::render(&table, job.units, &job.page_head());
-    send(job, args, &text)?;
+    send_tables(job, args, &[table])?;
     Ok(Effect::Done)
 }
 
@@ -310,8 +322,8 @@ fn view(job: &mut Job, call: &Call) -> Outcome<Effect> {
         d.rows(&rows(args), job.units).map_err(|e| to_diagnostic(args, &e))?
     };
     let table = chosen_columns(job, args, &args.data)?;
-    let text = page::view(&table, &numbers, job.units).join("\n");
-    send(job, args, &text)?;
+    let units = job.units;
+    send(job, args, |width| page::view(&table, &numbers, units, width).join("\n"))?;
     Ok(Effect::Done)
 }
 
@@ -380,8 +392,6 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let column = args.word(COLUMN).unwrap_or_default();
     let culled =
         open_disposition(job, args.span)?.cull(column, &excluded, job.units).map_err(|e| to_diagnostic(args, &e))?;
-    let (rows, columns) = (culled.table.rows(), culled.table.columns().len());
     job.menus.push(Menu::Disposition(Box::new(culled)));
-    job.say(&format!("{rows} rows of {columns} columns kept; END returns to all rows"));
     Ok(Effect::Done)
 }

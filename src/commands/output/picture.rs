@@ -142,7 +142,9 @@ static SPEC: CommandSpec = CommandSpec {
             "PLAN (or TOP), ELEVATION (or SIDE, PORT), STARBOARD, BOW, STERN, ISO, or BOTH plan and elevation",
         )
         .or("BOTH"),
-        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector").or("all"),
+        ValueSpec::new("NAME", Kind::Name(Noun::Selector), "connector or body, pattern or selector")
+            .among(&[Noun::Connector, Noun::Body])
+            .or("all"),
     ],
     repeat: 1,
     options: &OPTIONS,

@@ -230,11 +230,9 @@ fn open(
     Ok(Effect::Done)
 }
 
-/// Opens an inner menu over a table and says what it holds.
+/// Opens an inner menu over a table.
 fn enter(job: &mut Job, table: Table) {
-    let text = format!("{}: {} rows of {} columns; END returns", table.title, table.rows(), table.columns().len());
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table))));
-    job.say(&text);
 }
 
 fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -244,12 +242,15 @@ fn spectrum(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut table = tables::density(&record, length).map_err(|e| series_error(args, &e))?;
     let moments = statistic::spectral(&record, length, job.units).map_err(|e| series_error(args, &e))?;
     job.keep_table(&moments);
-    let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, job.units).join("\n"));
-    if let Some(without) = &without {
-        text.push_str(&format!("\n\n   {without}"));
-    }
+    let units = job.units;
+    job.say_fitted(|width| {
+        let mut text = format!("{}\n\n{}", moments.title, page::grid(&moments, units, width).join("\n"));
+        if let Some(without) = &without {
+            text.push_str(&page::fold_text(&format!("\n\n   {without}"), width));
+        }
+        text
+    });
     table.add_notes(without);
-    job.say(&text);
     enter(job, table);
     Ok(Effect::Done)
 }

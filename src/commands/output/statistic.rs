@@ -3,7 +3,7 @@
 //! Source: [MOSES-REF disp_men]. The independent column, the cycles and the options of ours are described in
 //! its help.
 
-use crate::commands::output::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES};
+use crate::commands::output::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_USE, RECORD, VALUES, WIDE};
 use crate::commands::output::disposition::{
     chosen_for_statistics, open_disposition, selectors, send, spec, to_diagnostic,
 };
@@ -31,7 +31,7 @@ const PEAKS: OptionSpec =
 static SPEC: CommandSpec = CommandSpec {
     data: &[COLUMN, ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, MAG_USE, DURATION, PEAKS],
+    options: &[RECORD, VALUES, HARD, BOTH, WIDE, MAG_USE, DURATION, PEAKS],
     detail: "The first column is the independent one; the extremes are given with their place in it. Kurtosis is the excess \
              over 3. Where the independent column grows, cycles are counted from an up-crossing of the mean to the next: \
              Period is their mean length, 1/3 Range the mean of the highest third of their crest-to-trough ranges \
@@ -58,11 +58,14 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         parts.push(statistic::peaks(&table).map_err(wrong)?);
     }
     parts.iter().for_each(|table| job.keep_table(table));
-    let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, job.units).join("\n"));
-    let mut text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
-    if let Some(without) = without {
-        text.push_str(&format!("\n\n   {without}"));
-    }
-    send(job, args, &text)?;
+    let units = job.units;
+    send(job, args, |width| {
+        let text = |t: &Table| format!("{}\n\n{}", t.title, page::grid(t, units, width).join("\n"));
+        let mut text = parts.iter().map(text).collect::<Vec<_>>().join("\n\n");
+        if let Some(without) = &without {
+            text.push_str(&page::fold_text(&format!("\n\n   {without}"), width));
+        }
+        text
+    })?;
     Ok(Effect::Done)
 }

@@ -20,7 +20,9 @@ static SPEC: CommandSpec = CommandSpec {
              and the elevation of the waves above that level there (W. Elv; our reading).",
     ..spec(
         "DRAFT",
-        &[ValueSpec::new(":D", Kind::Name(Noun::Selector), "draft mark, pattern or selector").or("all draft marks")],
+        &[ValueSpec::new(":D", Kind::Name(Noun::Selector), "draft mark, pattern or selector")
+            .among(&[Noun::DraftMark])
+            .or("all draft marks")],
         "drafts at draft marks",
     )
 };

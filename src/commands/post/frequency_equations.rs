@@ -8,7 +8,7 @@ use crate::commands::post::frequency_posts::{body, dispose};
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::frequency::{FrequencyResults, heaving, last_points, open_results};
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::{csv, page};
+use crate::report::csv;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -105,18 +105,11 @@ fn exciting(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(dispose(job, made, span))
 }
 
-fn say(job: &mut Job, tables: &[Table]) {
-    tables.iter().for_each(|table| job.keep_table(table));
-    let head = job.page_head();
-    let text = tables.iter().map(|table| page::render(table, job.units, &head)).collect::<Vec<_>>().join("\n");
-    job.say(&text);
-}
-
 fn print_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let span = call.args.span;
     let made = equations(job, span)?;
     if !call.args.has(&FILE) {
-        say(job, &made.print_tables());
+        job.say_tables(&made.print_tables());
         return Ok(Effect::Done);
     }
     let table = matrices(&made.linear, &made.frame, &made.frequencies);
@@ -132,6 +125,6 @@ fn summarise(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut tables = made.print_tables();
     tables.extend(modes(&made.linear).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?);
     tables.push(made.exciting(job, span)?);
-    say(job, &tables);
+    job.say_tables(&tables);
     Ok(Effect::Done)
 }

@@ -41,7 +41,7 @@ pub static CONFORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: f
 pub static STATISTICS: Command = Command { spec: &STATISTICS_SPEC, edits: false, run: report_statistics };
 
 /// The duration of the most probable maximum (s): three hours.
-pub(super) const MPM_DURATION_S: f64 = 10_800.0;
+pub(crate) const MPM_DURATION_S: f64 = 10_800.0;
 choices! {
     /// What STATISTICS is of.
     enum StatisticsOf {
@@ -83,7 +83,9 @@ static FORCE_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &[&menu::FREQ_RESPONSE],
     opens: Opens::Menu(&menu::DISPOSITION),
-    data: &[ValueSpec::new(":CONN", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all")],
+    data: &[ValueSpec::new(":CONN", Kind::Name(Noun::Selector), "connector, pattern or selector")
+        .among(&[Noun::Connector])
+        .or("all")],
     repeat: 1,
     detail: "How the sizes of the forces of connectors on their first ends vary, by their stiffness and damping there: for a line its tension. \
              Of a single connector also its components in global axes. Lines follow without dynamics of their own. As MOTION.",
@@ -105,6 +107,7 @@ static STATISTICS_SPEC: CommandSpec = CommandSpec {
     data: &[
         ValueSpec::choice::<StatisticsOf>("WHAT", "of what"),
         ValueSpec::new("NAME", Kind::Name(Noun::Selector), "a body; one or two points; connectors")
+            .among(&[Noun::Body, Noun::Point, Noun::Connector])
             .or("the first body; all connectors"),
     ],
     repeat: 1,

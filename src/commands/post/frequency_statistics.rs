@@ -76,7 +76,7 @@ const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
 }
 
 static FR_CFORCE_SPEC: CommandSpec = CommandSpec {
-    data: &[ValueSpec::new("CONN", Kind::Name(Noun::Selector), "a connector")],
+    data: &[ValueSpec::new("CONN", Kind::Name(Noun::Selector), "a connector").among(&[Noun::Connector])],
     detail: "The size of its force on its first body, for a line its tension, and its components in global axes, by its stiffness and damping \
              at rest. After RAO amplitudes and phases, after SRESPONSE spectral densities.",
     ..spec("FR_CFORCE", "the force of a connector")
@@ -99,7 +99,10 @@ static ST_POINT_SPEC: CommandSpec = CommandSpec {
     ..spec("ST_POINT", "statistics of the point of FR_POINT")
 };
 static ST_CFORCE_SPEC: CommandSpec = CommandSpec {
-    data: &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector"), ENV],
+    data: &[
+        ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector").among(&[Noun::Connector]),
+        ENV,
+    ],
     options: &SEAS,
     detail: IN_SEA,
     ..spec("ST_CFORCE", "statistics of the forces of connectors")

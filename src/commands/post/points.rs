@@ -21,6 +21,7 @@ static SPEC: CommandSpec = CommandSpec {
     ..spec(
         "POINTS",
         &[ValueSpec::new("*POINT", Kind::Name(Noun::Selector), "point, pattern or selector")
+            .among(&[Noun::Point])
             .or("all points of interest")],
         "motions of points of interest",
     )

@@ -50,11 +50,14 @@ pub(crate) const MAG_DEFINE: OptionSpec = OptionSpec::new(
 )
 .repeating(1)
 .default("X Y Z");
-const NAME: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Selector), "body, pattern or selector");
+const NAME: ValueSpec =
+    ValueSpec::new("BODY", Kind::Name(Noun::Selector), "body, pattern or selector").among(&[Noun::Body]);
 pub(crate) const BODY: OptionSpec = OptionSpec::new("-BODY", &[NAME], "bodies, as the data name them").repeating(1);
 pub(crate) const BODIES: &[ValueSpec] = &[NAME.or("all bodies but junctions")];
 pub(crate) const CONNECTORS: &[ValueSpec] =
-    &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "connector, pattern or selector").or("all connectors")];
+    &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "connector, pattern or selector")
+        .among(&[Noun::Connector])
+        .or("all connectors")];
 pub(crate) const LOCAL: OptionSpec = OptionSpec::new(
     "-LOCAL",
     &[ValueSpec::choice::<YesNo>("YES/NO", "NO is as without the option").or("YES")],

@@ -44,8 +44,8 @@ static DISTANCE_SPEC: CommandSpec = CommandSpec {
     ..spec(
         "P_MIN_DISTANCE",
         &[
-            ValueSpec::new("*A", Kind::Name(Noun::Selector), "a point, pattern or selector"),
-            ValueSpec::new("*B", Kind::Name(Noun::Selector), "points they are measured from"),
+            ValueSpec::new("*A", Kind::Name(Noun::Selector), "a point, pattern or selector").among(&[Noun::Point]),
+            ValueSpec::new("*B", Kind::Name(Noun::Selector), "points they are measured from").among(&[Noun::Point]),
         ],
         "least distances of points",
     )

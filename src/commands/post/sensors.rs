@@ -21,6 +21,7 @@ static SPEC: CommandSpec = CommandSpec {
     ..spec(
         "SENSOR",
         &[ValueSpec::new(":S", Kind::Name(Noun::Selector), "sensor, pattern or selector")
+            .among(&[Noun::Sensor])
             .or("all sensors that are on")],
         "readings of sensors",
     )

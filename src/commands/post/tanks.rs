@@ -24,7 +24,9 @@ pub static HOLE_FLOODING: Command =
     Command { spec: &HOLE_SPEC, edits: false, run: |job, call| show(job, call, at_holes) };
 
 const COMPARTMENTS: &[ValueSpec] =
-    &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "compartment, pattern or selector").or("all compartments")];
+    &[ValueSpec::new(":C", Kind::Name(Noun::Selector), "compartment, pattern or selector")
+        .among(&[Noun::Compartment])
+        .or("all compartments")];
 
 const EXAMPLE: &str = "MEDIT\n&DESCRIBE BODY BOX -IGNORE X Y RX RY RZ\n*C 2 0 1\n#WEIGHT *C 100 1 1 1\n*VENT 2 0 3\n\
                        &DESCRIBE HOLE H1 VENT -POINT *VENT\n&DESCRIBE COMPARTMENT TANK -HOLES H1\nPGEN\nPLANE 0 4 -RECT 0 3 2\nEND\nEND\n\
@@ -53,7 +55,9 @@ static HOLE_SPEC: CommandSpec = CommandSpec {
              (Internal) and the first less the second. Heads are heights of sea water. Flow rates are not computed.",
     ..spec(
         "HOLE_FLOODING",
-        &[ValueSpec::new(":H", Kind::Name(Noun::Selector), "hole, pattern or selector").or("all holes")],
+        &[ValueSpec::new(":H", Kind::Name(Noun::Selector), "hole, pattern or selector")
+            .among(&[Noun::Hole])
+            .or("all holes")],
         "heads at holes of compartments",
     )
 };

@@ -66,6 +66,20 @@ const PLOT_SIZE: OptionSpec = OptionSpec::new(
 )
 .default("the terminal's width, else 90; 26")
 .owner(Owner::Ours);
+const WIDE: OptionSpec = OptionSpec::new(
+    "-WIDE",
+    &[YES_NO],
+    "reports are as wide as their columns; NO: at a terminal columns that do not fit go on below, behind the row heads",
+)
+.default("NO")
+.owner(Owner::Ours);
+const PAGES: OptionSpec = OptionSpec::new(
+    "-PAGES",
+    &[YES_NO],
+    "what is longer than the terminal is shown by the pager of PAGER, else less; never where output is no terminal",
+)
+.default("YES")
+.owner(Owner::Ours);
 const US_DATE: OptionSpec = ignored_option("-US_DATE");
 const CONT_ENTRY: OptionSpec = ignored_option("-CONT_ENTRY");
 const G_DEFAULT: OptionSpec = ignored_option("-G_DEFAULT");
@@ -92,6 +106,8 @@ static SPEC: CommandSpec = CommandSpec {
         ICOMIN,
         RECORDS,
         PLOT_SIZE,
+        WIDE,
+        PAGES,
         US_DATE,
         CONT_ENTRY,
         G_DEFAULT,
@@ -133,6 +149,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 let [columns, lines] = const { [PLOT_SIZE.integer("COLUMNS"), PLOT_SIZE.integer("LINES")] };
                 settings.plot_size = size(columns).zip(size(lines));
             }
+            _ if given.is(&WIDE) => settings.wide = given.is_on(),
+            _ if given.is(&PAGES) => settings.pages = given.is_on(),
             _ => remarks.push((format!("{} has no effect in windlass", given.name()), given.span)),
         }
     }
@@ -143,11 +161,18 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     Ok(effect)
 }
 
-/// A file name as the user means it: beside the job's root when it has no folder of its own, else as written.
+/// A file name as the user means it: beside the job's root when it has no folder of its own, else as written. Of a script in a folder of
+/// answers, as &SAVE writes them, also beside that folder, where the files of the job that answered are.
 pub fn beside_root(job: &Job, name: &str) -> PathBuf {
     let path = Path::new(name);
     let folder = job.output.folder.root.parent().unwrap_or(Path::new(""));
-    if path.is_absolute() || path.exists() { path.to_path_buf() } else { folder.join(path) }
+    if path.is_absolute() || path.exists() {
+        return path.to_path_buf();
+    }
+    let beside = folder.join(path);
+    let answers = folder.extension().is_some_and(|ending| ending == "ans") && !beside.exists();
+    let outside = folder.parent().filter(|_| answers).map(|outer| outer.join(path)).filter(|outer| outer.exists());
+    outside.unwrap_or(beside)
 }
 
 /// A file that a script may have written: in the job's folder when it is there, else as [`beside_root`].

@@ -2,5 +2,6 @@
 
 pub(crate) mod accepted;
 pub(crate) mod device;
+pub(crate) mod history;
 pub(crate) mod parameter;
 pub(crate) mod units;

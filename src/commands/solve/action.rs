@@ -3,7 +3,7 @@
 use crate::commands::model::alter::select_connectors;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::Dof;
-use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given};
@@ -28,7 +28,8 @@ const DOF: ValueSpec =
 const LIMIT: ValueSpec = ValueSpec::new("V", Kind::Number(Dim::None), "a length, or an angle in degrees");
 const POINT: ValueSpec = ValueSpec::new("*PT", Kind::Name(Noun::Point), "point of a body");
 const HEIGHT: ValueSpec = ValueSpec::new("Z", Kind::Number(Dim::Length), "height above the mean water level");
-const LINES: &[ValueSpec] = &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector")];
+const LINES: &[ValueSpec] =
+    &[ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector").among(&[Noun::Connector])];
 
 /// Options that say when.
 const WHEN: [OptionSpec; 7] = [AT, TENSION, SLACK, ABOVE, BELOW, HIGH, LOW];
@@ -57,7 +58,7 @@ const ACTIVATE: OptionSpec = OptionSpec::new("-ACTIVATE", LINES, "connectors tha
 const WINCH: OptionSpec = OptionSpec::new(
     "-WINCH",
     &[
-        ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector"),
+        ValueSpec::new(":SEL", Kind::Name(Noun::Selector), "connector, pattern or selector").among(&[Noun::Connector]),
         ValueSpec::new("RATE", Kind::Number(Dim::Velocity), "length a second, positive pays out, 0 stops it"),
         ValueSpec::new("LENGTH", Kind::Number(Dim::Length), "length at which it stops").or("goes on").positive(),
     ],
@@ -121,7 +122,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
         if job.actions.len() == before {
             let mut error = Diagnostic::error(format!("there is no action {name}"), args.place(NAME));
-            error.help.extend(did_you_mean(name, job.actions.iter().map(|a| a.name.as_str())));
+            error.help.extend(suggest(name, job.actions.iter().map(|a| a.name.as_str())));
             return Err(error);
         }
         return Ok(Effect::Done);

@@ -2,11 +2,11 @@
 
 use crate::commands::menu;
 use crate::commands::name_filter::{NameFilter, raise};
-use crate::commands::output::disposition::{BOTH, HARD, send};
+use crate::commands::output::disposition::{BOTH, HARD, WIDE, send_tables};
+use crate::commands::solve::summary::of_table;
 use crate::commands::solve::vary;
 use crate::commands::{Call, Command, Effect, Job, Menu, status};
 use crate::report::disposition::Disposition;
-use crate::report::page;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Fact, Table};
@@ -97,11 +97,11 @@ static GEOMETRY_SPEC: CommandSpec = CommandSpec {
 
 static PROPERTIES_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::CONN_DESIGN],
-    data: &[
-        ValueSpec::new("~CLASS", Kind::Name(Noun::Selector), "class, pattern or selector").or("all classes of lines")
-    ],
+    data: &[ValueSpec::new("~CLASS", Kind::Name(Noun::Selector), "class, pattern or selector")
+        .among(&[Noun::Class])
+        .or("all classes of lines")],
     repeat: 1,
-    options: &[HARD, BOTH],
+    options: &[HARD, BOTH, WIDE],
     detail: "One table a class, with its records as they were given: what &STATUS CL_FLEX prints.",
     example: "MEDIT\n~WIRE B_CAT 4.19 -LEN 4000 -DEP 500\n~CHAIN B_CAT -TYPE CHAIN_R4 4 -LEN 900 -DEP 500\nEND\nCONN_DESIGN\n\
               PROPERTIES\nPROPERTIES ~CH@\nEND",
@@ -145,11 +145,12 @@ fn condition(args: &Args) -> Outcome<Condition> {
     }
 }
 
-/// Opens the disposition menu over the table of a class's line, and raises its warnings.
-fn dispose(job: &mut Job, class: &str, mut made: Table, span: Span) -> Effect {
+/// Prints the summary of the table of a class's line with what to look at next, opens the disposition menu over it, and raises its warnings.
+fn dispose(job: &mut Job, class: &str, (command, next): (&str, &str), mut made: Table, span: Span) -> Effect {
     let name = Fact { name: "Line Class".into(), value: class.into(), dim: Dim::None, digits: Digits::Usual };
     made.facts.insert(0, name);
     raise(job, &made, span);
+    of_table(command, &made, "each row is solved to the tolerance of the line engine", job.units).print(job, next);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done
 }
@@ -161,7 +162,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let held = condition(args)?;
     if let Some(vary) = args.option(&vary::VARY) {
         let (made, missing) = vary::tabulate(job, (connector, class), vary, held, args)?;
-        let effect = dispose(job, &name, made, span);
+        let effect = dispose(job, &name, ("TABLE", "REPORT: all rows; PLOT draws columns"), made, span);
         missing.into_iter().for_each(|(text, place)| job.warn(text, place));
         return Ok(effect);
     }
@@ -177,7 +178,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for AbsentRow { number, error } in absent {
         made.warn(format!("row {number} has no configuration: {}", error.text(job.units)));
     }
-    Ok(dispose(job, &name, made, span))
+    Ok(dispose(job, &name, ("TABLE", "REPORT: all rows; PLOT X Force"), made, span))
 }
 
 fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -195,11 +196,11 @@ fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Ok(made)
         })
         .map_err(|e| e.diagnostic(span, job.units).help(format!("while shaping connector {}", connector.name)))?;
-    Ok(dispose(job, &name, made, span))
+    Ok(dispose(job, &name, ("GEOMETRY", "REPORT: all points; PLOT X Z: the shape"), made, span))
 }
 
 fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let text = {
+    let tables = {
         let chosen = NameFilter::new(&call.args.data, &job.model);
         let tables = status::class_tables::classes(job, &|class| {
             if chosen.chooses_all() { class.object.as_line().is_some() } else { chosen.matches(&class.name) }
@@ -208,9 +209,8 @@ fn properties(job: &mut Job, call: &Call) -> Outcome<Effect> {
         if tables.is_empty() {
             return Err(Diagnostic::error("no class of a line is defined yet", call.args.span));
         }
-        let head = job.page_head();
-        tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n")
+        tables
     };
-    send(job, &call.args, &text)?;
+    send_tables(job, &call.args, &tables)?;
     Ok(Effect::Done)
 }

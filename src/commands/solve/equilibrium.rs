@@ -3,13 +3,14 @@
 //! Source: [MOSES-REF equi].
 
 use crate::commands::name_filter::{note_caveats, raise};
-use crate::commands::output::disposition::{BOTH, HARD, send};
+use crate::commands::output::disposition::{BOTH, HARD, WIDE, send_tables};
+use crate::commands::solve::summary::{SolveSummary, count, farthest_move, worst_in_state};
 use crate::commands::verdict::{OverBreak, check_over_break};
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::page;
 use indexmap::IndexMap;
 use windlass_base::choice::{Dof, YesNo};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
 use windlass_base::span::Span;
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Given;
@@ -76,7 +77,7 @@ const ECHO: OptionSpec = OptionSpec::new(
 .without_effect();
 
 static SPEC: CommandSpec = CommandSpec {
-    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH],
+    options: &[DEFAULTS, ITER_MAX, TOLERANCE_OPTION, IGNORE, OMEGA, MOVE_MAX, ECHO, HARD, BOTH, WIDE],
     detail: "All bodies and active connectors in the environment in force. Newton iteration with the analytic stiffness, of each group of bodies and junctions that \
              connectors join and then of all together; far from equilibrium, and where the stiffness is not stable, it is regularised by a share of the mass. The residual acceleration is \
              reported and must be below the tolerance, a fraction of gravity: 0.001 means a force of a thousandth of the body's weight. -OMEGA and -MOVE_MAX shorten steps, where whole ones go too far or to another equilibrium; they need a \
@@ -161,17 +162,34 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
         );
     }
+    let before: Vec<Place> = job.model.bodies.values().map(|body| body.place).collect();
     let settled = find_equilibrium_with_rebuilds(&mut job.model, &options)
         .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)
         .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
-    let (mut over, mut unknown) = (Vec::new(), Vec::new());
+    let (mut over, mut unknown, mut summaries) = (Vec::new(), Vec::new(), Vec::new());
     for (name, summary) in settled.system.summaries(&settled.state) {
         match summary {
-            Ok(summary) => over.extend(check_over_break(name, &summary, "&EQUI")),
+            Ok(summary) => {
+                over.extend(check_over_break(name, &summary, "&EQUI"));
+                summaries.push((name, summary));
+            }
             Err(error) => unknown.push(format!("the tension of {name} is not known: {}", error.error.text(job.units))),
         }
     }
+    let (bodies, steps) =
+        (settled.system.nodes.iter().filter(|n| !n.junction).count(), settled.found.search.iterations);
+    let what = format!("{} and {}", count(bodies, "body"), count(summaries.len() + unknown.len(), "connector"));
+    let residual = format!(
+        "{:.1e} of gravity is the largest acceleration left; the tolerance is {}",
+        settled.found.search.residual, options.tolerance[0]
+    );
+    let worst = worst_in_state(summaries.iter().map(|(name, summary)| (*name, summary)));
+    let broken = !over.is_empty();
+    let summary = SolveSummary::new(format!("&EQUI: {what} at rest after {}", count(steps, "step")))
+        .line("Residual", residual)
+        .worst(worst, job.units)
+        .line("Excursion", farthest_move(&before, &job.model, job.units));
     job.equilibrium = EquilibriumOptions { ignored: Vec::new(), ..options };
     let mut list = vec![tables::rest(&job.model, &settled), forces];
     match job.model.check_motions() {
@@ -185,12 +203,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     note_caveats(&job.model, &mut list);
-    let head = job.page_head();
-    let text = list.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    send(job, &call.args, &text)?;
     list.iter().for_each(|t| raise(job, t, call.args.span));
     warn_of_lines(job, call.args.span);
     warn_of_breaks(job, over, call.args.span);
     unknown.into_iter().for_each(|text| job.warn(text, call.args.span));
+    let next = if broken {
+        "a line is beyond its break: &STATUS F_CONNECTOR shows all tensions, &STATUS FORCE what acts on the bodies"
+    } else {
+        "&STATUS F_CONNECTOR: tensions; &STATUS LINE_ANGLES: anchors; &STATUS FORCE: what acts on the bodies"
+    };
+    summary.print(job, next);
+    send_tables(job, &call.args, &list)?;
     Ok(Effect::Done)
 }

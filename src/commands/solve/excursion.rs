@@ -5,6 +5,7 @@
 use crate::commands::menu;
 use crate::commands::name_filter::{note_caveats, raise};
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::summary::of_table;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::format::number_in_full;
@@ -167,12 +168,18 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
     Ok(Systems { system, intact, removed })
 }
 
-/// Opens the disposition menu over a table, and raises its warnings.
-fn dispose(job: &mut Job, mut made: Table, args: &Args) -> Effect {
+/// Prints the summary of a table with what to look at next, opens the disposition menu over it, and raises its warnings.
+fn dispose(job: &mut Job, (command, next): (&str, &str), mut made: Table, args: &Args) -> Effect {
     let acting = job.model.connectors.values().filter(|c| c.active).map(|c| c.name.as_str());
     made.add_notes(job.model.idealisations(acting));
     note_caveats(&job.model, std::slice::from_mut(&mut made));
     raise(job, &made, args.place(NAMED));
+    let residual = if args.has(&FREE) || command == WATCH_SPEC.name {
+        "bodies that move are at rest within the tolerance of &EQUI"
+    } else {
+        "none to solve for: other degrees of freedom are held; -FREE brings them to rest"
+    };
+    of_table(command, &made, residual, job.units).print(job, next);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done
 }
@@ -216,7 +223,9 @@ fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
         table_of_directions(&systems, &asked, &directions, &at)
     };
     let made = made.map_err(|e| to_diagnostic(e, &job.model, args.place(NAMED), job.units))?;
-    Ok(dispose(job, made, args))
+    let next =
+        if one { "REPORT: all rows; PLOT Excursion Restoring" } else { "REPORT; PLOT Direction Excursion -POLAR" };
+    Ok(dispose(job, (MOVE_SPEC.name, next), made, args))
 }
 
 fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -237,5 +246,5 @@ fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let path = ExcursionPath { body: index, direction: 0.0, free, most: None };
     let asked = ExcursionTableOptions { name: &body.name, place: &body.place, start: &start, path, units: job.units };
     let made = circle((&asked, force), &systems, &found, intact.as_ref());
-    Ok(dispose(job, made, args))
+    Ok(dispose(job, (WATCH_SPEC.name, "REPORT: all rows; PLOT X Y: the watch circle"), made, args))
 }

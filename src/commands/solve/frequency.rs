@@ -6,9 +6,10 @@ use crate::commands::environment::env;
 use crate::commands::environment::probability;
 use crate::commands::menu;
 use crate::commands::name_filter::raise;
+use crate::commands::post::frequency_posts::MPM_DURATION_S;
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::summary::{SolveSummary, count, largest_in_sea, largest_operators, worst_in_sea};
 use crate::commands::{Call, Command, Effect, Job, Menu};
-use crate::report::page;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -234,18 +235,29 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Dim::None,
     );
     table.add_notes(linear.notes.iter().cloned());
-    say(job, &table, args.span);
+    let [shift, turn] = largest_operators(&linear, &made, job.units);
+    let what = format!("{} and {}", count(periods.len(), "period"), count(headings.len(), "heading"));
+    let summary = SolveSummary::new(format!("RAO: motions in unit waves of {what}"))
+        .line("Residual", "none: the equations are linear and solved directly")
+        .line("Excursion", shift)
+        .line("Rotation", turn);
+    say(
+        job,
+        (summary, "MOTION BODY: operators; STATISTICS MOTION|TENSION: in a sea, with the worst line"),
+        &table,
+        args.span,
+    );
     keep(job, FrequencyResults::Operators(Arc::new(linear), made));
     Ok(Effect::Done)
 }
 
-/// Prints facts, and raises warnings.
-fn say(job: &mut Job, table: &Table, span: Span) {
+/// Prints a summary with what to look at next, then facts, and raises warnings.
+fn say(job: &mut Job, (summary, next): (SolveSummary, &str), table: &Table, span: Span) {
     raise(job, table, span);
+    summary.print(job, next);
     let mut plain = table.clone();
     plain.notes.retain(|note| note.severity != Severity::Warning);
-    let head = job.page_head();
-    job.say(&page::render(&plain, job.units, &head));
+    job.say_tables(&[plain]);
 }
 
 /// The seas of an environment.
@@ -282,7 +294,19 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.add_notes(linear.notes.iter().cloned());
-    say(job, &table, args.span);
-    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, probability::extreme(&model)));
+    let extreme = probability::extreme(&model);
+    let kind = extreme.unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
+    let both = (&linear, &made);
+    let summary = SolveSummary::new(format!("SRESPONSE: motions in a sea of {}", count(made.waves.len(), "frequency")))
+        .line("Residual", format!("damping and velocities agree after {}", count(made.rounds, "round")))
+        .worst(worst_in_sea(&model, both, kind), job.units)
+        .line("Excursion", largest_in_sea(both, kind, job.units));
+    say(
+        job,
+        (summary, "STATISTICS MOTION|TENSION|POINT: deviations and extremes; MOTION BODY: spectra"),
+        &table,
+        args.span,
+    );
+    keep(job, FrequencyResults::Spectral(Arc::new(linear), made, extreme));
     Ok(Effect::Done)
 }

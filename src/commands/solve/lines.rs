@@ -190,7 +190,7 @@ impl SolvedCounts {
             .text("Regime", |(regime, _)| **regime)
             .column("", "Lines", Dim::None, Digits::Usual, |(_, lines)| **lines)
             .build();
-        let mut text = if self.solved > 0 { page::grid(&table, job.units) } else { Vec::new() };
+        let mut text = if self.solved > 0 { page::grid(&table, job.units, None) } else { Vec::new() };
         text.push(format!("{name}: {} rows solved, {} refused", self.solved, self.refused));
         text.push(format!("wrote {}", place.path().display()));
         text.join("\n")

@@ -5,10 +5,10 @@
 use crate::commands::menu;
 use crate::commands::solve::equilibrium::{to_diagnostic, warn_of_breaks, warn_of_lines};
 use crate::commands::solve::restart::resume;
+use crate::commands::solve::summary::{SolveSummary, count, excursion_in_run, worst_in_run};
 use crate::commands::solve::tether_run;
 use crate::commands::verdict::over_break_in;
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::page;
 use crate::report::run_log::RunLog;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::Six;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, UnitSystem};
 use windlass_base::values::Args;
 use windlass_hydro::morison::pieces_without_wave_load;
 use windlass_language::select::Owner;
@@ -413,13 +413,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(Ok(list)) = &checked {
         tables.extend(list.iter().cloned());
     }
-    tables.iter().for_each(|table| job.keep_table(table));
-    let head = job.page_head();
-    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
     let over = over_break_in(&made);
     let (poor, kept) = (ended.as_ref().ok().and_then(|_| run_tables::warning_of_accuracy(&made)), made.settings.keep);
+    let summary = summarise(&made, ended.is_err(), job.units);
+    let broken = !over.is_empty();
     job.run = Some(made);
-    job.say(&text);
     if let Some(text) = poor {
         job.warn(text, span);
     }
@@ -433,27 +431,50 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             format!("fender {} is deflected to {share:.0} per cent of its rated deflection at {:.1} s", p.name, p.time);
         job.warn(text, span);
     }
-    let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
-    let ended = ended.map_err(wrong)?;
-    checked.transpose().map_err(wrong)?;
-    peaks.map_err(wrong)?;
-    match ended {
-        Ending::Done => {}
-        Ending::Interrupted if kept => {
+    match &ended {
+        Ok(Ending::Done) | Err(_) => {}
+        Ok(Ending::Interrupted) if kept => {
             job.warn("the run was interrupted: what it has is kept, and -RESTART goes on", span);
         }
-        Ending::Interrupted => {
+        Ok(Ending::Interrupted) => {
             job.warn("the run was interrupted: the statistics are those up to there; -STATISTICS keeps no file to go on from", span);
         }
-        Ending::Capsized(name) => {
+        Ok(Ending::Capsized(name)) => {
             job.warn(
                 format!("body {name} rolled or pitched beyond 90 degrees: the run ended there (-NO_CAPSIZE YES)"),
                 span,
             );
         }
-        Ending::Stopped(name) => job.remark(format!("action {name} ended the run"), span),
+        Ok(Ending::Stopped(name)) => job.remark(format!("action {name} ended the run"), span),
     }
+    let next = match (broken, kept) {
+        (true, _) => "a line is beyond its break: PRCPOST, CONFORCE NAME shows its force over time",
+        (false, true) => "PRCPOST: TRAJECTORY, CONFORCE and others over time; &ANIMATE: a film",
+        (false, false) => "the statistics below; without -STATISTICS instants are kept for PRCPOST",
+    };
+    summary.print(job, next);
+    job.say_tables(&tables);
+    let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
+    ended.map_err(wrong)?;
+    checked.transpose().map_err(wrong)?;
+    peaks.map_err(wrong)?;
     Ok(Effect::Done)
+}
+
+/// What a run came to, in a few lines.
+fn summarise(made: &Run, failed: bool, units: UnitSystem) -> SolveSummary {
+    let asked = if failed { "FAILED at" } else { "reached" };
+    let head = format!(
+        "TDOM: {asked} {:.1} s of {:.1} s in {}",
+        made.time(),
+        made.settings.observed,
+        count(made.counts.steps, "step")
+    );
+    let residual = format!("each step converged to {:e} of gravity", made.settings.convergence.tolerance);
+    SolveSummary::new(head)
+        .line("Residual", residual)
+        .worst(worst_in_run(made), units)
+        .line("Excursion", excursion_in_run(made, units))
 }
 
 /// The quasi-static lines of a run that ended, replayed as dynamic lines; or why not, where there are such lines.

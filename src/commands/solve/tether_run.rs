@@ -8,7 +8,6 @@ use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::tdom;
 use crate::commands::solve::tdom::RunProgress;
 use crate::commands::{Effect, Job};
-use crate::report::page;
 use crate::report::run_log::{self, RunLog};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -121,10 +120,7 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
     note_caveats(&job.model, &mut tables);
     tables.extend([tethered::actions(&made), tethered::events(&made)].into_iter().filter(|table| table.rows() > 0));
     tables.extend(tethered::statistics_tables(&made));
-    tables.iter().for_each(|table| job.keep_table(table));
-    let head = job.page_head();
-    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    job.say(&text);
+    job.say_tables(&tables);
     for event in
         made.happened.iter().filter(|e| matches!(e.change, windlass_tether::installed::RigChange::LowerStop { .. }))
     {

@@ -29,7 +29,7 @@ pub(crate) mod wind_table;
 
 use crate::commands::menu;
 use crate::commands::name_filter::{NameFilter, note_caveats, raise};
-use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, open_chosen_table, send};
+use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, open_chosen_table, send};
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
 use crate::commands::{Call, Command, Effect, Job, absent};
@@ -40,6 +40,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::values::{Args, Noun};
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
+use windlass_model::EntityKind;
 
 /// &STATUS.
 pub static STATUS: Command = Command { spec: &SPEC, edits: false, run };
@@ -141,6 +142,11 @@ pub fn kinds() -> impl Iterator<Item = (&'static str, Owner, &'static str)> + Cl
     })
 }
 
+/// The sorts of things whose names a kind of [`kinds`] takes.
+pub fn names(kind: &str) -> &'static [EntityKind] {
+    find_kind(kind).names
+}
+
 /// The kind of a name of [`kinds`].
 fn find_kind(name: &str) -> &'static StatusKind {
     KINDS.iter().find(|kind| kind.name == name).copied().unwrap_or(&model_tables::SUMMARY)
@@ -185,7 +191,7 @@ static SPEC: CommandSpec = CommandSpec {
     ],
     repeat: 1,
     opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
-    options: &[PLOT, BRIEF, FORCE, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH],
+    options: &[PLOT, BRIEF, FORCE, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH, WIDE],
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
              class knows; LINE_TYPES 3 gives their values at a nominal diameter, LINE_TYPES CHAIN_R4 the formulas of one. \
@@ -259,14 +265,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     }
     let head = job.page_head();
-    let mut text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
+    let mut drawings = String::new();
     let (columns, lines) = job.plot_size();
     for table in &charts {
         let drawn = Chart::from_table(table, job.units).and_then(|chart| chart.terminal(columns, lines));
-        text.push('\n');
-        text.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
+        drawings.push('\n');
+        drawings.push_str(&drawn.map_err(|e| Diagnostic::error(e.to_string(), args.span))?);
     }
-    send(job, args, &text)?;
+    let units = job.units;
+    send(job, args, |width| format!("{}{drawings}", page::render_all(&tables, units, &head, width)))?;
     tables.iter().for_each(|t| raise(job, t, place));
     Ok(Effect::Done)
 }

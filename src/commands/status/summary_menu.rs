@@ -9,7 +9,6 @@ use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::status::{body_tables, categories, class_tables, compartments, loads_table, model_tables};
 use crate::commands::verdict::Verdict;
 use crate::commands::{Call, Command, Effect, Job, Menu};
-use crate::report::page;
 use nalgebra::Vector3;
 use windlass_base::diagnostic::Outcome;
 use windlass_base::table::{Digits, Table};
@@ -102,13 +101,6 @@ fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
-fn print(job: &mut Job, tables: &[Table]) {
-    tables.iter().for_each(|table| job.keep_table(table));
-    let head = job.page_head();
-    let text = tables.iter().map(|t| page::render(t, job.units, &head)).collect::<Vec<_>>().join("\n");
-    job.say(&text);
-}
-
 /// Prints the tables of some kinds of &STATUS.
 fn report(job: &mut Job, call: &Call, kinds: &[&StatusKind]) -> Outcome<Effect> {
     let given = call.args.data.iter().filter(|v| v.word().is_none_or(|word| !word.eq_ignore_ascii_case("ATTRIB")));
@@ -122,7 +114,7 @@ fn report(job: &mut Job, call: &Call, kinds: &[&StatusKind]) -> Outcome<Effect> 
         }
         tables.append(&mut made);
     }
-    print(job, &tables);
+    job.say_tables(&tables);
     Ok(Effect::Done)
 }
 
@@ -153,6 +145,6 @@ fn coincident(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .columns("Global", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |(point, ..)| model.global(point))
         .column("", "Distance", Dim::Length, Digits::Decimals(6), |(.., apart)| *apart)
         .build();
-    print(job, &[table]);
+    job.say_tables(&[table]);
     Ok(Effect::Done)
 }

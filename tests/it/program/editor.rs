@@ -15,7 +15,8 @@ fn whole(n: u16) -> NonZeroU16 {
     NonZeroU16::new(n).unwrap()
 }
 
-struct Terminal {
+/// A program in a pseudo-terminal, and what its screen shows.
+pub(super) struct Terminal {
     child: Box<dyn Child + Send + Sync>,
     master: Box<dyn MasterPty + Send>,
     keys: Box<dyn Write + Send>,
@@ -26,8 +27,13 @@ struct Terminal {
 }
 
 impl Terminal {
-    fn start(home: &Path, arguments: &[&str]) -> Terminal {
-        let pair = native_pty_system().openpty(SIZE).unwrap();
+    pub(super) fn start(home: &Path, arguments: &[&str]) -> Terminal {
+        Terminal::start_sized(home, arguments, SIZE, &[("PAGER", "cat")])
+    }
+
+    /// Starts it in a terminal of a size, with variables of the environment.
+    pub(super) fn start_sized(home: &Path, arguments: &[&str], size: PtySize, variables: &[(&str, &str)]) -> Terminal {
+        let pair = native_pty_system().openpty(size).unwrap();
         let mut command = CommandBuilder::new(env!("CARGO_BIN_EXE_windlass"));
         command.args(arguments);
         command.cwd(home);
@@ -35,6 +41,7 @@ impl Terminal {
         command.env("XDG_STATE_HOME", home.join("state"));
         command.env("TERM", "xterm-256color");
         command.env_remove("NO_COLOR");
+        variables.iter().for_each(|(name, value)| command.env(name, value));
         let child = pair.slave.spawn_command(command).unwrap();
         drop(pair.slave);
         let mut reader = pair.master.try_clone_reader().unwrap();
@@ -53,12 +60,12 @@ impl Terminal {
             master: pair.master,
             keys,
             bytes,
-            screen: vt100::Parser::new(whole(SIZE.rows), whole(SIZE.cols), 500),
+            screen: vt100::Parser::new(whole(size.rows), whole(size.cols), 500),
             received: 0,
         }
     }
 
-    fn press(&mut self, keys: &str) {
+    pub(super) fn press(&mut self, keys: &str) {
         self.keys.write_all(keys.as_bytes()).unwrap();
         self.keys.flush().unwrap();
     }
@@ -82,12 +89,12 @@ impl Terminal {
     }
 
     /// Waits for a text anywhere on the screen.
-    fn see(&mut self, text: &str) {
+    pub(super) fn see(&mut self, text: &str) {
         self.wait(text, |screen| screen.contents().contains(text));
     }
 
     /// Waits until the editor has printed this prompt and the cursor stands behind it: only then is it in raw mode.
-    fn ready(&mut self, prompt: &str) {
+    pub(super) fn ready(&mut self, prompt: &str) {
         self.wait(prompt, |screen| {
             let (row, column) = screen.cursor_position();
             let line = screen.rows(0, 200).nth(row.into()).unwrap_or_default();
@@ -96,13 +103,23 @@ impl Terminal {
     }
 
     /// Types a record, sees it on the line, and enters it.
-    fn record(&mut self, text: &str) {
+    pub(super) fn record(&mut self, text: &str) {
         self.press(text);
         self.see(text);
         self.press("\r");
     }
 
-    fn end(mut self) -> u32 {
+    /// The bytes the program has written until it ended by itself.
+    pub(super) fn all_output(mut self) -> Vec<u8> {
+        let mut all = Vec::new();
+        while let Ok(bytes) = self.bytes.recv_timeout(Duration::from_secs(60)) {
+            all.extend(bytes);
+        }
+        let _ = self.child.kill();
+        all
+    }
+
+    pub(super) fn end(mut self) -> u32 {
         self.press("\x04");
         let limit = Instant::now() + Duration::from_secs(20);
         loop {

@@ -9,7 +9,7 @@ mod supports;
 mod touchdown;
 
 use crate::commands::menu;
-use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
+use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, print_or_dispose};
 use crate::commands::post::prcpost::{self, asked_behind_transient, last_run, run_and_events, transient_of};
 use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::solve::equilibrium::to_diagnostic;
@@ -41,7 +41,7 @@ impl ReportRegistry for fn(&RodQuery) -> Tables {
         &fatigue::FATIGUE,
         &check::CHECK,
     ];
-    const SHARED: &'static [OptionSpec] = &[EVENTS, DISPOSE, HARD, BOTH];
+    const SHARED: &'static [OptionSpec] = &[EVENTS, DISPOSE, HARD, BOTH, WIDE];
 }
 
 const NAME: DatumKey<str> = SPEC.word("NAME");

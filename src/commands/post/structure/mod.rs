@@ -7,7 +7,7 @@ mod history;
 mod pages;
 
 use crate::commands::menu;
-use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
+use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, print_or_dispose};
 use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::post::tether::instants::{EVENTS, instants, last_run, transient_of};
 use crate::commands::{Call, Command, Effect, Job};
@@ -25,7 +25,7 @@ pub(crate) type StructureReport = Report<fn(&StructureQuery) -> Tables>;
 
 impl ReportRegistry for fn(&StructureQuery) -> Tables {
     const REPORTS: &'static [&'static StructureReport] = &[&pages::PAGES, &history::HISTORY, &harmonics::HARMONICS];
-    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH];
+    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH, WIDE];
 }
 
 const WHAT: DatumKey<&'static StructureReport> = SPEC.choice("WHAT");

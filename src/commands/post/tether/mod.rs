@@ -15,7 +15,7 @@ mod statistics;
 
 use self::instants::{EVENTS, instants, last_run, transient_of};
 use crate::commands::menu;
-use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, print_or_dispose};
+use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, print_or_dispose};
 use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -45,7 +45,7 @@ impl ReportRegistry for fn(&TetherQuery) -> Tables {
         &fatigue::FATIGUE,
         &events::EVENTS,
     ];
-    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH];
+    const SHARED: &'static [OptionSpec] = &[DISPOSE, HARD, BOTH, WIDE];
 }
 
 const NAME: DatumKey<str> = SPEC.word("NAME");
