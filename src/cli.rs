@@ -1,5 +1,6 @@
 //! The command line: what is run, from where, and the exit code.
 
+use crate::commands::find_stored;
 use crate::commands::verdict::{OverBreak, Verdict};
 use crate::manual;
 use crate::repl;
@@ -99,6 +100,19 @@ pub struct CheckArgs {
     pub compat: bool,
 }
 
+/// The answers to open.
+#[derive(clap::Args, Debug, Default)]
+pub struct OpenArgs {
+    /// The folder of answers (ROOT.ans)
+    pub folder: PathBuf,
+    /// Execute a record instead of staying at the terminal; may be given several times
+    #[arg(short = 'c', value_name = "RECORD", allow_hyphen_values = true)]
+    pub commands: Vec<String>,
+    /// Let records write outside of the folder
+    #[arg(long)]
+    pub allow_files: bool,
+}
+
 /// Where the manual goes.
 #[derive(clap::Args, Debug, Default)]
 pub struct ManualArgs {
@@ -120,9 +134,8 @@ pub enum Subcommand {
     /// Compare results with published numbers, closed forms, listings and other programs
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyArgs),
-    /// Opens the answers of a job.
-    #[command(hide = true)]
-    Open(Words),
+    /// Open the run that a folder of answers holds, without the script that made it
+    Open(OpenArgs),
     /// Makes a report of a job.
     #[command(hide = true)]
     Report(Words),
@@ -175,6 +188,8 @@ enum UsageError {
     VerifyFirst,
     #[error("manual comes first, and takes a folder: windlass manual docs")]
     ManualFirst,
+    #[error("open comes first, and takes a folder of answers: windlass open ROOT.ans")]
+    OpenFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
     NoJob,
     #[error("a script and -c cannot be given together; if `{0}` is a record, it needs a -c of its own")]
@@ -233,6 +248,7 @@ pub fn run(cli: Cli) -> u8 {
         Some(Subcommand::Check(check)) => return check_script(check),
         Some(Subcommand::Manual(manual)) => return write_manual(&manual.dir),
         Some(Subcommand::Verify(args)) => return run_verification(args),
+        Some(Subcommand::Open(open)) => return open_answers(open),
         _ => {}
     }
     match job(cli) {
@@ -283,6 +299,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "check" => Err(UsageError::CheckFirst),
         "manual" => Err(UsageError::ManualFirst),
         "verify" => Err(UsageError::VerifyFirst),
+        "open" => Err(UsageError::OpenFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }
@@ -344,6 +361,47 @@ fn run_verification(args: &VerifyArgs) -> u8 {
         VerifyEnd::Missed => 1,
         VerifyEnd::Usage => USAGE,
     }
+}
+
+/// Opens the run of a folder of answers, then executes records or stays at the terminal; returns the exit code.
+fn open_answers(args: &OpenArgs) -> u8 {
+    // a ROOT stands for its folder
+    let named = PathBuf::from(format!("{}.ans", args.folder.display()));
+    let is_root = !args.folder.is_dir() && named.is_dir();
+    let folder = if is_root { named } else { args.folder.clone() };
+    let (kept, records) = match find_stored(&folder) {
+        Ok(found) => found,
+        Err(error) => {
+            complain(&error.to_string());
+            return USAGE;
+        }
+    };
+    let terminal = stdin().is_terminal();
+    let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+    let job = JobFolder::new(folder.with_extension(""), Some(folder.clone()), args.allow_files);
+    let mut session = Session::new(Output::new(job, Box::new(stdout()), Box::new(stderr()), colour));
+    session.job.output.columns = screen_columns;
+    session.job.output.lines = screen_lines;
+    // the log of the job stays as it is
+    session.job.output.keep_log = false;
+    session.job.ask = Some(Arc::new(ask_standard_input));
+    let running = Arc::clone(&session.interpreter.interrupt);
+    // without the handler Ctrl-C ends the program, which loses no file
+    let _ = ctrlc::set_handler(move || running.store(true, Ordering::Relaxed));
+    if !session.open_stored(kept, &records) {
+        let text = "cannot be opened: the records kept beside it do not make its model again";
+        complain(&format!("the run in {} {text}", folder.display()));
+        return 1;
+    }
+    if args.commands.is_empty() {
+        repl::run(&mut session, terminal);
+    } else {
+        session.open("-c", args.commands.join("\n"));
+        session.run();
+    }
+    session.finish();
+    session.job.output.flush();
+    exit_code(&session)
 }
 
 /// Checks a script; 1 where a record is refused.

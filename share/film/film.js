@@ -119,7 +119,7 @@
     head.append(mark, line.name);
     return { row, mark, tension: row.insertCell(), share: row.insertCell() };
   });
-  $("force").textContent = `Tension (${data.force.name})`;
+  $("force").textContent = `Largest tension along line (${data.force.name})`;
   $("told").hidden = !lines.length;
 
   function draw() {
@@ -225,7 +225,7 @@
   function legend() {
     const share = now.by === "share", most = share ? data.share : data.tension * data.force.per;
     $("most").textContent = share ? most.toFixed(3) : figures(most);
-    $("what").textContent = share ? "tension/break" : `tension (${data.force.name})`;
+    $("what").textContent = share ? "tension/break along the line" : `tension along the line (${data.force.name})`;
     const pen = $("ramp").getContext("2d");
     for (let x = 0; x < 160; x++) {
       pen.fillStyle = css(ramp(x / 159));

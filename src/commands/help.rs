@@ -337,8 +337,12 @@ fn option_lines(option: &OptionSpec, units: UnitSystem) -> Vec<String> {
         OptionEffect::Stops(SolveKind::Statics, _) => " [not computed: stops the next solve]",
         OptionEffect::Stops(SolveKind::Motions, _) => " [not computed: stops the next solve of motions]",
     };
-    let mut lines = vec![format!("   {:<28} {}{default}{effect}", option.syntax(), option.help)];
-    if option.values.len() > 1 || option.values.iter().any(|v| v.help != option.help) {
+    let explained = option.values.len() > 1 || option.values.iter().any(|v| v.help != option.help);
+    // a value that the option explains stands in its line, with its unit
+    let value = option.values.first().filter(|_| !explained);
+    let expected = value.map_or(String::new(), |v| format!(": {}", describe_expected(v.kind, units)));
+    let mut lines = vec![format!("   {:<28} {}{expected}{default}{effect}", option.syntax(), option.help)];
+    if explained {
         lines.extend(option.values.iter().map(|v| format!("        {:<23} {}", v.name, value_help(v, units))));
     }
     lines

@@ -17,6 +17,7 @@ use crate::report::disposition::Disposition;
 use crate::report::files::{FilePlace, Question};
 use crate::report::output::Output;
 use crate::report::page::{self, PageHead};
+use crate::report::run_log::StoredRun;
 use indexmap::IndexMap;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -343,6 +344,8 @@ pub struct Job {
     pub processes: IndexMap<String, Process>,
     /// The last run.
     pub run: Option<Run>,
+    /// A run read from its file, which the next TDOM takes instead of running.
+    pub stored_run: Option<StoredRun>,
     /// The last run of tethers.
     pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
@@ -393,6 +396,7 @@ impl Job {
             process: "DEFAULT".into(),
             processes: IndexMap::new(),
             run: None,
+            stored_run: None,
             tethered: None,
             scatter: Vec::new(),
             verdict: Verdict::default(),

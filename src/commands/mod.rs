@@ -45,6 +45,7 @@ use output::{add_column, animate, buildg, disposition, message, picture, plot, r
 use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, history, parameter, units};
+pub use solve::stored::{StoredError, find_stored};
 pub(crate) use solve::summary::count;
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 use status::summary_menu;

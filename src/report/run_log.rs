@@ -49,6 +49,9 @@ pub enum RunLogError {
     /// Not such a file.
     #[error("it is no file of a run of this program")]
     Other,
+    /// One of another form.
+    #[error("another version of windlass wrote it: its form is {0}, this version reads form {own}; the run must be made again", own = MARK[7])]
+    Version(u8),
     /// A time or a motion that is no finite number.
     #[error("it is damaged: it holds a time or a motion that is not finite")]
     NotFinite,
@@ -134,7 +137,8 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLo
         found.map(|b| u64::from_le_bytes(*b)).ok_or(RunLogError::Other)
     };
     if bytes.get(..8) != Some(&MARK) {
-        return Err(RunLogError::Other);
+        let version = bytes.get(7).filter(|_| bytes.get(..7) == MARK.get(..7));
+        return Err(version.map_or(RunLogError::Other, |version| RunLogError::Version(*version)));
     }
     let (fingerprint, width) = (word(8)?, usize::try_from(word(16)?).map_err(|_| RunLogError::Other)?);
     let (mut at, mut found, mut rows) = (HEADER_BYTES, None, Vec::new());
@@ -218,6 +222,17 @@ mod tests {
             log.snapshot(&snapshot_at(1.0)).unwrap();
             assert!(matches!(read_file(&path), Err(RunLogError::NotFinite)), "row at {bad}");
         }
+    }
+
+    #[test]
+    fn run_file_of_another_form_is_named_as_such() {
+        let folder = tempfile::tempdir().unwrap();
+        let (mut log, path) = start_log(folder.path());
+        log.snapshot(&snapshot_at(1.0)).unwrap();
+        let mut bytes = std::fs::read(&path).unwrap();
+        bytes[7] = 9;
+        let said = read(&mut std::io::Cursor::new(bytes), 1.0).unwrap_err().to_string();
+        assert!(said.contains("its form is 9, this version reads form 3"), "{said}");
     }
 
     #[cfg(unix)]

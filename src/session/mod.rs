@@ -19,6 +19,7 @@ use crate::commands::count;
 use crate::commands::journal::Executed;
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
+use crate::report::run_log::StoredRun;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::Arc;
@@ -111,6 +112,21 @@ impl Session {
         if let Err(error) = self.interpreter.open(name, text, SCRIPT, None) {
             self.report(*error);
         }
+    }
+
+    /// Makes the model of a stored run by its records and takes the run as the last one; false where the records are refused.
+    pub fn open_stored(&mut self, kept: StoredRun, records: &str) -> bool {
+        let model = records.trim_end();
+        let (model, last) = model.rsplit_once('\n').unwrap_or(("", model));
+        self.job.settings.silent = true;
+        self.open("the records of the run", format!("{model}\n"));
+        self.run();
+        self.job.menus.truncate(1);
+        self.job.stored_run = Some(kept);
+        self.open("the record of the run", format!("{last}\n"));
+        self.run();
+        self.job.settings.silent = false;
+        self.errors == 0 && self.job.stored_run.take().is_none()
     }
 
     /// Opens a script file.

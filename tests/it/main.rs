@@ -24,6 +24,7 @@ mod program {
     mod never_panics;
     mod picture;
     mod script_check;
+    mod stored_run;
     mod table_vary;
     mod terminal;
     mod undo;

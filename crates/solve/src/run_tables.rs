@@ -277,7 +277,8 @@ pub fn comparison_tables(run: &Run, second: &History) -> Vec<Table> {
 }
 
 /// The dimensions of results, with what they are called.
-const KINDS: [(&str, Dim); 3] = [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions", Dim::Force)];
+const KINDS: [(&str, Dim); 3] =
+    [("Places", Dim::Length), ("Angles", Dim::Angle), ("Tensions at First Ends", Dim::Force)];
 
 /// Whether a row is behind the transient (s).
 fn is_behind(row: &[f64], transient: f64) -> bool {

@@ -9,6 +9,7 @@ pub(crate) mod hstatics;
 pub(crate) mod lines;
 pub(crate) mod prescribe;
 pub(crate) mod restart;
+pub(crate) mod stored;
 pub(crate) mod summary;
 pub(crate) mod tdom;
 pub(crate) mod tether_run;

@@ -9,8 +9,9 @@ use crate::commands::solve::summary::{SolveSummary, count, excursion_in_run, wor
 use crate::commands::solve::tether_run;
 use crate::commands::verdict::over_break_in;
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::run_log::RunLog;
+use crate::report::run_log::{RunLog, StoredRun};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use windlass_base::choice::YesNo;
@@ -253,8 +254,8 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
     })
 }
 
-/// A run that begins, and the file it is kept in.
-fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run, Option<RunLog>)> {
+/// A run that begins.
+fn begin_run(job: &Job, args: &Args, settings: RunSettings) -> Outcome<Run> {
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     model.parameters.dividing = args.option_number(&DIVIDING);
@@ -278,19 +279,63 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<(Run,
     if !velocities.is_empty() {
         made.begin_with(&velocities).map_err(|e| wrong(e, job))?;
     }
+    Ok(made)
+}
+
+/// The file that a run is kept in, where it is kept; a run that goes on is taken to where the one in the file was.
+fn open_file(job: &mut Job, call: &Call, made: &mut Run) -> Outcome<Option<RunLog>> {
+    let args = &call.args;
     if !made.settings.keep {
-        return Ok((made, None));
+        return Ok(None);
     }
-    let folder = &mut job.output.folder;
-    let path = folder.folder.join(FILE);
+    if let Some(again) = args.option(&RESTART) {
+        return resume(job, made, again, args.span).map(Some);
+    }
+    let path = job.output.folder.folder.join(FILE);
     let refused = |text: String| Diagnostic::error(text, args.span);
-    let Some(again) = args.option(&RESTART) else {
-        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
-        let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
-        return Ok((made, Some(log.map_err(|e| refused(e.to_string()))?)));
+    let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+    keep_records(job, FILE, call);
+    let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
+    Ok(Some(log.map_err(|e| refused(e.to_string()))?))
+}
+
+/// Writes the records that make the model of a run beside the file of the run, its own record last: `windlass open` runs them.
+pub(crate) fn keep_records(job: &mut Job, file: &str, call: &Call) {
+    let name = records_of(file);
+    let text = format!("{}{}\n", job.journal.script(true), call.record.text().trim());
+    let written = if job.journal.overflows() {
+        Err("the session has more records than are kept (64 MB)".to_string())
+    } else {
+        let made = job.output.folder.create(&name).map_err(|e| e.to_string());
+        made.and_then(|mut file| file.write_all(text.as_bytes()).map_err(|e| e.to_string()))
     };
-    let log = resume(job, &mut made, again, args.span)?;
-    Ok((made, Some(log)))
+    if let Err(error) = written {
+        job.warn(format!("{name} is not written, and `windlass open` cannot open the run: {error}"), call.args.span);
+    }
+}
+
+/// The name of the file of the records of a run that is kept in a file.
+pub fn records_of(file: &str) -> String {
+    format!("{file}.cif")
+}
+
+/// Takes the run of a file as the last run, with what it came to.
+fn open_stored(job: &mut Job, args: &Args, settings: RunSettings, kept: StoredRun) -> Outcome<Effect> {
+    let span = args.span;
+    let mut made = begin_run(job, args, settings)?;
+    if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
+        return Err(Diagnostic::error("the run is not that of the records kept beside it", span)
+            .help("a file that they read has changed, or another version of windlass made the run"));
+    }
+    made.resume_from(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let mut tables = vec![run_tables::run_table(&made)];
+    tables.extend(run_tables::extremes(&made));
+    let summary = summarise(&made, false, job.units);
+    job.run = Some(made);
+    job.settings.silent = false;
+    summary.print(job, "PRCPOST: TRAJECTORY, CONFORCE and others over time; &ANIMATE: a film");
+    job.say_tables(&tables);
+    Ok(Effect::Done)
 }
 
 /// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
@@ -360,7 +405,7 @@ fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     if args.has(&tether_run::TETHERS) {
-        return tether_run::run(job, args);
+        return tether_run::run(job, call);
     }
     if let Some(given) = args.option(&tether_run::SLAM).or(args.option(&tether_run::TOW)) {
         return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name()), given.span));
@@ -369,7 +414,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if job.model.bodies.is_empty() {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
-    let (mut made, log) = begin_run(job, args, settings)?;
+    if let Some(kept) = job.stored_run.take() {
+        return open_stored(job, args, settings, kept);
+    }
+    let mut made = begin_run(job, args, settings)?;
+    let log = open_file(job, call, &mut made)?;
     warn_of_still_pieces(job, &made, span);
     if tethered::has_tethers(&job.model) {
         job.remark(

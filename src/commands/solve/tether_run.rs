@@ -7,13 +7,12 @@ use crate::commands::name_filter::note_caveats;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::tdom;
 use crate::commands::solve::tdom::RunProgress;
-use crate::commands::{Effect, Job};
+use crate::commands::{Call, Effect, Job};
 use crate::report::run_log::{self, RunLog};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::unit_vector;
 use windlass_base::units::Dim;
-use windlass_base::values::Args;
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_solve::tethered::{self, TetherRun, TetherRunSettings};
@@ -59,7 +58,7 @@ pub const TOW: OptionSpec = OptionSpec::new(
 .default("0: it stays");
 
 /// The file of a run of tethers.
-const FILE: &str = "TETHERS.run";
+pub(crate) const FILE: &str = "TETHERS.run";
 /// Options of TDOM that a run of tethers does not take.
 const NOT_TAKEN: [OptionSpec; 10] = [
     tdom::NO_CAPSIZE,
@@ -78,8 +77,10 @@ const NOT_TAKEN: [OptionSpec; 10] = [
 ///
 /// # Errors
 /// No -TIME, an option that does not go with it, what the engine refuses.
-pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
+pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
     let span = args.span;
+    let stored = job.stored_run.take();
     if let Some(given) = NOT_TAKEN.iter().find_map(|option| args.option(option)) {
         let text = format!("{} does not go with -TETHERS", given.name());
         return Err(Diagnostic::error(text, given.span).help("tethers run by a scheme of two stages with fixed steps"));
@@ -100,7 +101,8 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         [speed * cos, speed * sin]
     });
     let settings = TetherRunSettings {
-        observed: window.observed,
+        // a stored run is not gone on with
+        observed: stored.as_ref().map_or(window.observed, |kept| kept.snapshot.time),
         step: window.step,
         store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
         compatible,
@@ -110,8 +112,24 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
         keep: !args.has(&tdom::STATISTICS),
     };
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, span, job.units);
+<<<<<<< HEAD
     let mut run = TetherRun::new(&job.model, &job.actions, settings).map_err(|e| wrong(e, job))?;
     let log = open_log(job, args, &mut run)?;
+=======
+    let mut run = TetherRun::new(&job.model, settings).map_err(|e| wrong(e, job))?;
+    let log = match stored {
+        Some(kept) => {
+            if kept.fingerprint != run.fingerprint() || kept.width != run.width() {
+                return Err(Diagnostic::error("the run is not that of the records kept beside it", span)
+                    .help("a file that they read has changed, or another version of windlass made the run"));
+            }
+            run.take_up(&kept.snapshot, &kept.rows).map_err(|e| wrong(e, job))?;
+            job.settings.silent = false;
+            None
+        }
+        None => open_log(job, call, &mut run)?,
+    };
+>>>>>>> cb81be13 (A stored run opens without its script; quantities of options have their unit, tensions say what they are of)
     let mut progress = RunProgress::with_length(job, window.observed, log);
     let made = run.run(&mut progress);
     drop(progress);
@@ -139,7 +157,8 @@ pub fn run(job: &mut Job, args: &Args) -> Outcome<Effect> {
 }
 
 /// The file of a run that keeps its instants; with -RESTART, what is in it is taken up.
-fn open_log(job: &mut Job, args: &Args, run: &mut TetherRun) -> Outcome<Option<RunLog>> {
+fn open_log(job: &mut Job, call: &Call, run: &mut TetherRun) -> Outcome<Option<RunLog>> {
+    let args = &call.args;
     if let (Some(one), Some(other)) = (args.option(&tdom::STATISTICS), args.option(&tdom::RESTART)) {
         let error = Diagnostic::error("-RESTART does not go with -STATISTICS", other.span);
         return Err(error.other(one.span, "it keeps no file to go on from"));
@@ -147,17 +166,17 @@ fn open_log(job: &mut Job, args: &Args, run: &mut TetherRun) -> Outcome<Option<R
     if args.has(&tdom::STATISTICS) {
         return Ok(None);
     }
-    let folder = &mut job.output.folder;
-    let path = folder.folder.join(FILE);
+    let path = job.output.folder.folder.join(FILE);
     let Some(again) = args.option(&tdom::RESTART) else {
         let refused = |text: String| Diagnostic::error(text, args.span);
-        let file = folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
+        tdom::keep_records(job, FILE, call);
         let log = RunLog::begin(file, path, run.fingerprint(), run.width());
         return Ok(Some(log.map_err(|e| refused(e.to_string()))?));
     };
     let refused =
         |text: String| Diagnostic::error(text, again.span).help("TDOM -TETHERS without -RESTART begins a run");
-    let mut file = folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
+    let mut file = job.output.folder.reopen(FILE).map_err(|e| refused(e.to_string()))?;
     let kept = run_log::read(&mut file, again.first_number().unwrap_or(f64::INFINITY));
     let kept = kept.map_err(|e| refused(format!("{}: {e}", path.display())))?;
     if kept.fingerprint != run.fingerprint() || kept.width != run.width() {

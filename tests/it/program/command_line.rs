@@ -206,7 +206,7 @@ fn missing_result_exits_with_1_and_a_message() {
 #[test]
 fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
-    for word in ["study", "open", "report", "fmt", "lsp"] {
+    for word in ["study", "report", "fmt", "lsp"] {
         let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
         assert_eq!((code, out.as_str()), (Some(2), ""));
         assert_eq!(err, format!("windlass: {word} is not in this version\n"));

@@ -49,7 +49,7 @@ pub const CD: OptionSpec = OptionSpec::ours(
     ],
     "drag coefficients of the segment",
 )
-.default("1.0 0.025/pi 1.2");
+.default("CDN of -TYPE, else 1.0; CDT 0.025/pi; CDW 1.2");
 /// `-CA`.
 pub const CA: OptionSpec = OptionSpec::ours(
     "-CA",
