@@ -5,6 +5,7 @@ use crate::commands::verdict::{OverBreak, Verdict};
 use crate::manual;
 use crate::repl;
 use crate::report::files::JobFolder;
+use crate::report::live::{LivePage, LivePageFile};
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
 use crate::verification::{VerifyArgs, VerifyEnd, verify};
@@ -88,6 +89,9 @@ pub struct JobArgs {
     /// Let the job write outside of its own folder, and &FILE act there
     #[arg(long)]
     pub allow_files: bool,
+    /// Keep a page of the model, tables and curves, written anew after each solve; it loads itself again when it changes
+    #[arg(long, value_name = "FILE.html")]
+    pub page: Option<PathBuf>,
 }
 
 /// The script to check.
@@ -474,6 +478,20 @@ fn run_job(cli: JobArgs) -> u8 {
     session.job.output.columns = screen_columns;
     session.job.output.lines = screen_lines;
     session.job.settings.batch = cli.batch;
+    if let Some(path) = &cli.page {
+        let made = LivePageFile::new(path.clone()).and_then(|mut file| {
+            let (title, state) = (path.display().to_string(), "the job begins");
+            let units = session.job.units;
+            file.write(&LivePage { title: &title, state, scene: None, tables: &[], run: None, units }).map(|()| file)
+        });
+        match made {
+            Ok(file) => session.job.page = Some(file),
+            Err(error) => {
+                complain(&error.to_string());
+                return USAGE;
+            }
+        }
+    }
     // a terminal that goes on to give records asks in its own way
     session.job.ask = Some(Arc::new(ask_standard_input));
     session.job.output.keep_log = cli.out.is_some() || !matches!(input, RecordSource::Records(_));
@@ -490,11 +508,13 @@ fn run_job(cli: JobArgs) -> u8 {
         }
         RecordSource::Terminal => (SessionEnd::Done, true),
     };
+    session.write_page(if stay { "the terminal waits" } else { "the job is done" });
     session.job.output.flush();
     let of_script = exit_code(&session);
     if stay && (end != SessionEnd::Finished || (cli.interactive && !cli.batch)) {
         repl::run(&mut session, terminal);
     }
+    session.write_page("the job is done");
     session.finish();
     session.job.output.flush();
     // what a person saw at the terminal is not said again

@@ -15,6 +15,7 @@ use crate::commands::undo::UndoStates;
 use crate::commands::verdict::Verdict;
 use crate::report::disposition::Disposition;
 use crate::report::files::{FilePlace, Question};
+use crate::report::live::LivePageFile;
 use crate::report::output::Output;
 use crate::report::page::{self, PageHead};
 use crate::report::run_log::StoredRun;
@@ -356,6 +357,10 @@ pub struct Job {
     pub kept_tables: Option<Vec<KeptTable>>,
     /// The records that were executed.
     pub journal: Journal,
+    /// The page that is written as the job goes, where one was asked for.
+    pub page: Option<LivePageFile>,
+    /// The tables printed last, for the page.
+    pub last_tables: Vec<Table>,
     /// States that `&UNDO` goes back to; none without a terminal.
     pub undo: Option<UndoStates>,
     /// Set by Ctrl-C: a command that takes long gives up, and the run ends behind it.
@@ -402,6 +407,8 @@ impl Job {
             verdict: Verdict::default(),
             kept_tables: None,
             journal: Journal::default(),
+            page: None,
+            last_tables: Vec::new(),
             undo: None,
             interrupt: Arc::default(),
         }
@@ -446,9 +453,17 @@ impl Job {
         }
     }
 
+    /// Keeps tables that are printed for the page of the job, where there is one.
+    pub fn keep_for_page(&mut self, tables: &[Table]) {
+        if self.page.is_some() {
+            self.last_tables = tables.to_vec();
+        }
+    }
+
     /// Prints the reports of some tables.
     pub fn say_tables(&mut self, tables: &[Table]) {
         tables.iter().for_each(|table| self.keep_table(table));
+        self.keep_for_page(tables);
         let (units, head) = (self.units, self.page_head());
         self.say_fitted(|width| page::render_all(tables, units, &head, width));
     }

@@ -57,6 +57,7 @@ pub fn run(session: &mut Session, terminal: bool) {
     session.job.undo = Some(UndoStates::default());
     while session.run() == SessionEnd::NeedLine {
         UndoStates::take(&mut session.job);
+        session.write_page("the terminal waits");
         session.job.output.flush();
         if let Ok(mut known) = known.lock() {
             known.update(session);

@@ -8,6 +8,7 @@ mod embedded;
 pub mod files;
 pub mod film;
 pub mod format;
+pub mod live;
 pub mod netcdf;
 pub mod output;
 pub mod page;

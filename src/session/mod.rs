@@ -4,6 +4,7 @@
 mod absent_record;
 mod check_report;
 mod deck;
+mod live_page;
 mod named;
 mod reading;
 mod script_check;
@@ -42,6 +43,9 @@ use windlass_language::token::TokenKind;
 
 /// Commands whose results others report.
 const SOLVES: [&str; 3] = ["TDOM", "RAO", "SRESPONSE"];
+
+/// Commands behind which the page of a job is written anew.
+const PAGE_SOLVES: [&str; 7] = ["&EQUI", "TDOM", "RAO", "SRESPONSE", "MOVE", "WATCH", "&STATUS"];
 
 /// Why a run came back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -286,6 +290,11 @@ impl Session {
             self.job.output.log(&format!("read {}, outside of the script's folder", path.display()));
         }
         self.report_lost_output();
+        if let Executed::Command(command) = self.executed
+            && PAGE_SOLVES.contains(&command.spec.name)
+        {
+            self.write_page("the job runs");
+        }
         over
     }
 

@@ -16,6 +16,7 @@ mod program {
     mod fuzz_corpus;
     mod hostile_input;
     mod lines;
+    mod live_page;
     mod macro_libraries;
     mod manual_blocks;
     mod menus;

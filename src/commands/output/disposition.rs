@@ -258,6 +258,7 @@ pub(crate) fn send(job: &mut Job, args: &Args, layout: impl Fn(Option<usize>) ->
 
 /// Sends the reports of some tables where -HARD, -BOTH and -WIDE say.
 pub(crate) fn send_tables(job: &mut Job, args: &Args, tables: &[Table]) -> Outcome<()> {
+    job.keep_for_page(tables);
     let (units, head) = (job.units, job.page_head());
     send(job, args, |width| page::render_all(tables, units, &head, width))
 }

@@ -10,6 +10,7 @@ use crate::commands::post::frequency_posts::MPM_DURATION_S;
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::summary::{SolveSummary, count, largest_in_sea, largest_operators, worst_in_sea};
 use crate::commands::{Call, Command, Effect, Job, Menu};
+use crate::report::page;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
@@ -257,7 +258,10 @@ fn say(job: &mut Job, (summary, next): (SolveSummary, &str), table: &Table, span
     summary.print(job, next);
     let mut plain = table.clone();
     plain.notes.retain(|note| note.severity != Severity::Warning);
-    job.say_tables(&[plain]);
+    // the table is kept as it was raised
+    job.keep_for_page(std::slice::from_ref(table));
+    let (units, head) = (job.units, job.page_head());
+    job.say_fitted(|width| page::render(&plain, units, &head, width));
 }
 
 /// The seas of an environment.
