@@ -33,6 +33,8 @@ pub struct StoredRun {
     pub rows: Vec<f64>,
     /// The last snapshot at or before the time asked for.
     pub snapshot: Snapshot,
+    /// Time of the last row of the file (s), which may lie behind the snapshot.
+    pub last_time: f64,
     /// Bytes up to behind that snapshot.
     end: u64,
 }
@@ -165,8 +167,10 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLo
         at = next;
     }
     let (snapshot, length, end) = found.ok_or(RunLogError::NoSnapshot)?;
+    let last = rows.len().checked_sub(width).and_then(|at| rows.get(at)).copied();
+    let last_time = last.map_or(snapshot.time, |time| time.max(snapshot.time));
     rows.truncate(length);
-    Ok(StoredRun { fingerprint, width, rows, snapshot, end })
+    Ok(StoredRun { fingerprint, width, rows, snapshot, last_time, end })
 }
 
 /// Whether a run can go on from here: its time and what moves.

@@ -319,6 +319,27 @@ pub fn records_of(file: &str) -> String {
     format!("{file}.cif")
 }
 
+/// Ends a run where the one in its file ended (s).
+struct StoredEnd(f64);
+
+impl Watcher for StoredEnd {
+    fn row(&mut self, _: &[f64]) -> Result<(), RunFileError> {
+        Ok(())
+    }
+
+    fn snapshot(&mut self, _: &Snapshot) -> Result<(), RunFileError> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> Result<(), RunFileError> {
+        Ok(())
+    }
+
+    fn should_continue(&mut self, time: f64) -> bool {
+        time < self.0 * (1.0 - 1e-12)
+    }
+}
+
 /// Takes the run of a file as the last run, with what it came to.
 fn open_stored(job: &mut Job, args: &Args, settings: RunSettings, kept: StoredRun) -> Outcome<Effect> {
     let span = args.span;
@@ -327,7 +348,10 @@ fn open_stored(job: &mut Job, args: &Args, settings: RunSettings, kept: StoredRu
         return Err(Diagnostic::error("the run is not that of the records kept beside it", span)
             .help("a file that they read has changed, or another version of windlass made the run"));
     }
-    made.resume_from(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, span, job.units))?;
+    let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
+    made.resume_from(&kept.snapshot, kept.rows).map_err(wrong)?;
+    // what stands behind the last snapshot is found again, to the same digits
+    made.run(&mut StoredEnd(kept.last_time)).map_err(wrong)?;
     let mut tables = vec![run_tables::run_table(&made)];
     tables.extend(run_tables::extremes(&made));
     let summary = summarise(&made, false, job.units);

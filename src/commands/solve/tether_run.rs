@@ -102,7 +102,7 @@ pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     });
     let settings = TetherRunSettings {
         // a stored run is not gone on with
-        observed: stored.as_ref().map_or(window.observed, |kept| kept.snapshot.time),
+        observed: stored.as_ref().map_or(window.observed, |kept| kept.last_time),
         step: window.step,
         store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
         compatible,

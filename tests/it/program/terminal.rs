@@ -10,7 +10,7 @@ use std::process::Command;
 /// Eight lines on a body: its reports have more columns than any screen here.
 fn write_mooring(folder: &Path) {
     let mut text = "&DEVICE -SET_DATE 2026-11-25\nMEDIT\n&DESCRIBE BODY SEMI -IGNORE Z RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 30000 20 20 20\n\
-                    ~W B_CAT 4 -LEN 2000 -DEP 500\n"
+                    ~W B_CAT 4 -LEN 2000 -DEP 500 -WTPLEN 0.04 -B_TENSION 700\n"
         .to_string();
     for line in 1..=8 {
         text.push_str(&format!("CONNECTOR L{line} -ANC {} 1900 ~W *CG\n", 45 * line));
