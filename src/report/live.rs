@@ -142,14 +142,16 @@ fn scene_data(scene: &Scene, units: UnitSystem) -> String {
         let kind = match path.stroke {
             Stroke::Inactive => "inactive",
             Stroke::Straight => "straight",
-            Stroke::Line => "line",
+            Stroke::Line | Stroke::Sling | Stroke::Pipe => "line",
+            Stroke::Fender => "fender",
             Stroke::Unsolved => "unsolved",
             Stroke::Bottom => "bottom",
         };
         object([("name", string(&path.name)), ("kind", string(kind)), ("points", list(path.points.iter().map(place)))])
     };
     let bodies = scene.bodies.iter().map(|body| {
-        let shapes = body.shapes.iter().map(|shape| list(shape.iter().map(place)));
+        let shapes = body.panels.iter().chain(Some(&body.points).filter(|points| !points.is_empty()));
+        let shapes = shapes.map(|shape| list(shape.iter().map(place)));
         object([("name", string(&body.name)), ("origin", place(&body.origin)), ("shapes", list(shapes))])
     });
     let anchors = scene.marks.iter().filter(|mark| mark.sign == Sign::Anchor);
