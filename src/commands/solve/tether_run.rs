@@ -112,11 +112,7 @@ pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         keep: !args.has(&tdom::STATISTICS),
     };
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, span, job.units);
-<<<<<<< HEAD
     let mut run = TetherRun::new(&job.model, &job.actions, settings).map_err(|e| wrong(e, job))?;
-    let log = open_log(job, args, &mut run)?;
-=======
-    let mut run = TetherRun::new(&job.model, settings).map_err(|e| wrong(e, job))?;
     let log = match stored {
         Some(kept) => {
             if kept.fingerprint != run.fingerprint() || kept.width != run.width() {
@@ -129,7 +125,6 @@ pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         None => open_log(job, call, &mut run)?,
     };
->>>>>>> cb81be13 (A stored run opens without its script; quantities of options have their unit, tensions say what they are of)
     let mut progress = RunProgress::with_length(job, window.observed, log);
     let made = run.run(&mut progress);
     drop(progress);
