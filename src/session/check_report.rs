@@ -91,7 +91,7 @@ impl CheckReport {
             for (i, (_, head, _)) in JUDGEMENTS.into_iter().enumerate() {
                 table = table.column("", head, Dim::None, Digits::Decimals(0), count(i));
             }
-            lines.extend(page::grid(&table.build(), UnitSystem::default()));
+            lines.extend(page::grid(&table.build(), UnitSystem::default(), None));
             for (judgement, _, title) in JUDGEMENTS.into_iter().filter(|(judgement, ..)| *judgement != Judgement::Acts)
             {
                 let listed: Vec<_> = self.listed.iter().filter(|record| record.judgement == judgement).collect();
