@@ -200,7 +200,7 @@ fn wrong_winches_and_breaks_are_refused_with_card_and_columns() {
             "    14LINE    1    2    0   12     1.0E5     540.0\n END14LBRK         1                -3.0\n",
             "deck 14 MOOR, LBRK, columns 31-40: -3.0 is below 0",
         ),
-        (" END14SWIR                         3.0E5\n", "deck 14, SWIR: a steel wire"),
+        (" END14SWIR                         3.0E5\n", "deck 14 MOOR, SWIR, columns 41-50: this field is blank"),
         (" END14DRUM    1    2    0   12\n", "deck 14 MOOR, DRUM: no public source"),
         (" END14FENP    1    2    0   12\n", "deck 14 MOOR, FENP: no public source"),
     ] {
