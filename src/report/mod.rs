@@ -20,3 +20,4 @@ pub mod readback;
 pub mod run_log;
 pub mod statistic;
 mod stored;
+pub mod xlsx;

@@ -105,7 +105,7 @@ pub static CULL: Command = Command { spec: &CULL_SPEC, edits: false, run: cull }
 pub(crate) const STORED: ValueSpec = ValueSpec::new(
     "FILE",
     Kind::File,
-    "file name ending in .csv, .parquet or .nc; .csv is added when it has no ending",
+    "file name ending in .csv, .xlsx, .parquet or .nc; .csv is added when it has no ending",
 )
 .or("PPO00001.CSV, PPO00002.CSV ..");
 /// A column that may be left out.

@@ -2,7 +2,7 @@
 
 use crate::commands::output::disposition::{MAG_USE, RECORD, VALUES, chosen_columns, open_disposition, write_file};
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::{csv, netcdf, parquet};
+use crate::report::{csv, netcdf, parquet, xlsx};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_language::spec::{CommandSpec, DatumKey};
 
@@ -16,10 +16,11 @@ static SPEC: CommandSpec = CommandSpec {
     detail: "By the ending of the name; others are refused. CSV: a header of the column names with units, then numbers with full \
              precision. Parquet (.parquet): columns with the same names, of doubles, whole numbers or text, not compressed; title, source, units \
              and notes in the metadata. NetCDF-3 (.nc): a variable for each column over the dimension row, with the same name (but _ for /, \
-             which the format does not take), units and long_name; text as characters. All are in user units, and a value that is missing is missing in the \
+             which the format does not take), units and long_name; text as characters. Excel (.xlsx): the same heads and numbers on \
+             one sheet, title, facts and notes on a second; text is never a formula. All are in user units, and a value that is missing is missing in the \
              file. Without a name, or with columns alone as in MOSES (STORE 1 2 5:8, STORE Time Z), the file is PPO00001.CSV, the next PPO00002.CSV and so on (our \
              reading). A relative file name is inside the job's folder: &HELP &FILE.",
-    ..crate::commands::output::disposition::spec("STORE", "writes columns to a CSV, Parquet or NetCDF file")
+    ..crate::commands::output::disposition::spec("STORE", "writes columns to a CSV, Excel, Parquet or NetCDF file")
 };
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -40,12 +41,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let bytes = match ending.as_deref() {
         Some("parquet") => parquet::bytes(&table, job.units).map_err(|e| e.to_string()),
         Some("nc") => netcdf::bytes(&table, job.units).map_err(|e| e.to_string()),
+        Some("xlsx") => xlsx::bytes(&table, job.units).map_err(|e| e.to_string()),
         Some("csv") => csv::bytes(&table, job.units).map_err(|e| e.to_string()),
         _ => {
             // a name that no file may have is refused for that
             let place = job.output.folder.place(&name);
             place.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.place(FILE)))?;
-            Err(format!("a table is stored as .csv, .parquet or .nc, not as `{name}`"))
+            Err(format!("a table is stored as .csv, .xlsx, .parquet or .nc, not as `{name}`"))
         }
     };
     let bytes = bytes.map_err(|text| Diagnostic::error(text, args.place(FILE)))?;
