@@ -66,7 +66,7 @@ impl Journal {
                 let name = command.spec.name;
                 let reads = |word: &Word| {
                     let begins = |option: &&str| option.starts_with(&word.text.to_ascii_uppercase());
-                    word.text.len() > 2 && READING_OPTIONS.iter().any(|option| begins(&option))
+                    word.text.len() > 2 && READING_OPTIONS.iter().any(begins)
                 };
                 if TERMINAL_COMMANDS.contains(&name) || (name == "&DEVICE" && words.iter().any(reads)) {
                     return self.follow_menus(open_menus, false);

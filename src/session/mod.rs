@@ -20,6 +20,7 @@ use crate::commands::count;
 use crate::commands::journal::Executed;
 use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
 use crate::report::output::Output;
+use crate::report::page;
 use crate::report::run_log::StoredRun;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -427,7 +428,7 @@ impl Session {
             }
             _ => return,
         };
-        self.job.say(&text);
+        self.job.say_fitted(|width| page::fold_text(&text, width));
     }
 
     /// Finds what a record means and does it.
@@ -473,7 +474,7 @@ impl Session {
             Err(error) => match plain_word(&first.text) {
                 Some(command) if command.spec.name != "&FINISH" || self.interactive => Meaning::Command(command),
                 Some(_) => return Err(error.help("&FINISH ends a script")),
-                None => return self.without_cascade(first, error),
+                None => return self.without_cascade((first, words), error),
             },
         };
         self.lost_opener = false;

@@ -101,7 +101,11 @@ impl Session {
     /// What is answered in a script to a word that names nothing in its menu. Where the word before was unknown too, and this one is a command
     /// of a menu that the present one opens, the unknown word was to open that menu: its records are passed over up to their `END`, without an
     /// error of their own. Records of a disposition menu where no table is open are passed over behind one error.
-    pub(super) fn without_cascade(&mut self, first: &Word, error: Box<Diagnostic>) -> Outcome<Effect> {
+    pub(super) fn without_cascade(
+        &mut self,
+        (first, words): (&Word, &[Word]),
+        error: Box<Diagnostic>,
+    ) -> Outcome<Effect> {
         if self.may_be_of_missing_library(first) {
             return self.answer_missing_macro(first);
         }
@@ -115,6 +119,8 @@ impl Session {
         }
         self.lost_opener = false;
         self.job.menus.push(Menu::Refused(meant));
+        // the record may itself open a menu, for whose END there is to wait as well
+        self.pass_over(first, words);
         if lost { Ok(Effect::Done) } else { Err(error.help("no table is open: the records up to END are passed over")) }
     }
 

@@ -283,9 +283,15 @@ fn joints(deck: &Deck, remarks: &mut Remarks) {
     }
 }
 
-/// Whether the lines that break (LBRK) are there.
+/// Whether the lines that break (LBRK) are there, and whether the card says when they do.
 fn line_breaks(deck: &Deck, remarks: &mut Remarks) {
+    let is_static = matches!(deck.job.program, Program::Librium | Program::Fer);
     for broken in &deck.mooring.breaks {
+        if is_static && broken.spectrum.value == 0 {
+            remarks.add(broken.refuse_without_spectrum());
+        } else if !is_static && !broken.has_condition() {
+            remarks.add(broken.refuse_without_condition());
+        }
         let found = usize::try_from(broken.line.value - 1).ok().and_then(|index| deck.mooring.lines.get(index));
         if found.is_none() {
             let message = format!("deck 14, LBRK, columns 16-20: there is no line {}", broken.line.value);

@@ -243,22 +243,25 @@ impl LineBreak {
                     .label("1 or nothing belongs here"),
             );
         }
-        let found = LineBreak {
+        LineBreak {
             spectrum,
             line: record.int(16),
             time: record.real(31),
             tensions: [record.real(41), record.real(51)],
             span: record.span,
-        };
-        if spectrum.value == 0 && !found.has_condition() {
-            remarks.add(found.refuse_without_condition());
         }
-        found
     }
 
     /// Whether a time or a tension says when it breaks in a run.
     pub fn has_condition(&self) -> bool {
         self.time.value > 0.0 || self.tensions.iter().any(|field| field.value > 0.0)
+    }
+
+    /// The error of one of LIBR or FER that names no spectrum.
+    pub fn refuse_without_spectrum(&self) -> Box<Diagnostic> {
+        Diagnostic::error("deck 14, LBRK, columns 11-15: this field is blank", self.spectrum.span)
+            .label("the number of the spectrum in which the line is broken, of LIBR and FER, belongs here: 1")
+            .help("a time and a tension, columns 31-60, are of DRIF and NAUT")
     }
 
     /// The error of one that has neither a time nor a tension.

@@ -112,9 +112,8 @@ fn mesh_by_vertices_encloses_its_tetrahedron() {
     for records in [numbered.as_str(), named.as_str(), points] {
         assert_share(volume(records), 4.5, 1e-8);
     }
-    let (_, errors) = printed(&format!(
-        "&DESCRIBE BODY B\n&SURFACE\nMESH M\nVERTEX 0 0 0\nPANEL 1 2 3\nVERTEX 1 4 4 4\nEND_MESH\nEND"
-    ));
+    let (_, errors) =
+        printed("&DESCRIBE BODY B\n&SURFACE\nMESH M\nVERTEX 0 0 0\nPANEL 1 2 3\nVERTEX 1 4 4 4\nEND_MESH\nEND");
     assert!(
         errors.len() == 2 && errors[0].contains("unknown vertex 2") && errors[1].contains("vertex 1 is given"),
         "{errors:?}"

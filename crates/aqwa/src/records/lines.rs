@@ -168,14 +168,6 @@ pub(super) fn is_broken_at_start(deck: &Deck, line: usize) -> bool {
 /// Takes the lines out that are broken in the spectrum of a LIBR or FER job [AQWA-REF LBRK].
 pub(super) fn broken_at_start(deck: &Deck, out: &mut Script) {
     for broken in &deck.mooring.breaks {
-        if broken.spectrum.value == 0 {
-            out.refuse(
-                Diagnostic::error("deck 14, LBRK, columns 11-15: this field is blank", broken.spectrum.span)
-                    .label("the number of the spectrum in which the line is broken, of LIBR and FER, belongs here: 1")
-                    .help("a time and a tension, columns 31-60, are of DRIF and NAUT"),
-            );
-            continue;
-        }
         if let Some(other) = [broken.time, broken.tensions[0], broken.tensions[1]].iter().find(|field| field.given) {
             let text = "times and tensions are of DRIF and NAUT: the line is broken from the start";
             out.note("deck 14, LBRK, columns 31-60", other.span, text);
@@ -191,10 +183,6 @@ pub(super) fn breaks(deck: &Deck, out: &mut Script) {
         if broken.spectrum.given {
             let text = "a spectrum is of LIBR and FER: the line breaks by its time and tensions alone";
             out.note("deck 14, LBRK, columns 11-15", broken.spectrum.span, text);
-        }
-        if !broken.has_condition() {
-            out.refuse(broken.refuse_without_condition());
-            continue;
         }
         let found = usize::try_from(broken.line.value - 1).ok().and_then(|at| deck.mooring.lines.get(at));
         let Some(line) = found else { continue };

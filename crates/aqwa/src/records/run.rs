@@ -128,10 +128,8 @@ fn cards_without_effect(deck: &Deck, out: &mut Script) {
         Program::Fer => "FER works in the frequency domain",
         _ => "LIBR finds an equilibrium",
     };
-    if !is_timed(deck) {
-        if let Some(steps) = deck.steps {
-            out.note("deck 16, TIME", steps.span, &format!("{program} and has no time steps: the card has no effect"));
-        }
+    if let Some(steps) = deck.steps.filter(|_| !is_timed(deck)) {
+        out.note("deck 16, TIME", steps.span, &format!("{program} and has no time steps: the card has no effect"));
     }
     if let Some(end) = end_of_run(deck) {
         for broken in deck.mooring.breaks.iter().filter(|broken| broken.time.value > end) {

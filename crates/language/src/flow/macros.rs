@@ -93,7 +93,9 @@ impl Macro {
                 return Err(Diagnostic::error("an `=` in a macro header follows a name", word.span));
             }
             let has_default = words.get(at + 1).is_some_and(|w| w.text.as_ref() == "=");
-            let default = has_default.then(|| words.get(at + 2).map_or(String::new(), |w| w.text.to_string()));
+            // nothing between the `=` and the next option is an empty default
+            let given = words.get(at + 2).filter(|w| w.kind != TokenKind::Option);
+            let default = has_default.then(|| given.map_or(String::new(), |w| w.text.to_string()));
             let (name, takes_rest) = match word.text.strip_suffix("..") {
                 Some(name) if !name.is_empty() => (name.to_string(), true),
                 _ => (word.text.to_string(), false),
@@ -113,7 +115,7 @@ impl Macro {
                 Some(option) => option.values.push(argument),
                 None => made.arguments.push(argument),
             }
-            at += if has_default { 3 } else { 1 };
+            at += if has_default { 2 + usize::from(given.is_some()) } else { 1 };
         }
         Ok(made)
     }

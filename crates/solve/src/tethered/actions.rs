@@ -60,7 +60,7 @@ impl MooredActions {
                 ActionKind::Environment(_) => return Err(refused(action, "the environment stays in a run of tethers")),
                 ActionKind::Stop => return Err(refused(action, "a run of tethers ends with -TIME of &ENV")),
             }
-            for name in action.connectors().iter().chain(action.when.connector()).filter(|name| !known(name)) {
+            if let Some(name) = action.connectors().iter().chain(action.when.connector()).find(|name| !known(name)) {
                 let text = format!("{name} is no connector that acts on {} beside its tethers", body.name);
                 return Err(refused(action, &text));
             }
