@@ -1,6 +1,6 @@
 //! What `&UNDO` goes back to: the model and the settings that records change, as they were when the terminal last waited for a record.
 //!
-//! Each state shares with the next what did not change. The states kept are at most [`MAX_STATES`], and at most [`MAX_BYTES`] together.
+//! Each state shares with the next what did not change. The states kept are at most `MAX_STATES`, and at most `MAX_BYTES` together.
 //! A script keeps none.
 
 use super::{Job, Menu};

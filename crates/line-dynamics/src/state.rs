@@ -15,7 +15,7 @@ pub struct RodState {
     /// From where positions are measured (m, global): where end A was at the last position of rest, or the first point of
     /// [`RodState::along_points`].
     pub origin: Vector3<f64>,
-    /// Position of each node (m, global axes, from [`RodState::origin`]): [`RodState::place`] is the global one.
+    /// Position of each node (m, global axes, from [`RodState::origin`]): [`RodState::node_position`] is the global one.
     pub position: Vec<Vector3<f64>>,
     /// Velocity of each node (m/s).
     pub velocity: Vec<Vector3<f64>>,

@@ -271,7 +271,7 @@ pub trait ConnectorElement: Debug + Send + Sync {
     /// The length of its first segment in a state (m), of an element that it runs into and out of by itself.
     ///
     /// # Errors
-    /// As [`Element::evaluate`].
+    /// As [`ConnectorElement::evaluate`].
     fn running_length(&self, _at: &Situation, _committed: &[f64]) -> Result<Option<f64>, ClassError> {
         Ok(None)
     }

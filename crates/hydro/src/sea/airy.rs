@@ -319,7 +319,7 @@ impl<'a> SeaAt<'a> {
         }
     }
 
-    /// Whether what [`SeaAt::stretched`] gives at a height (m) depends on the elevation.
+    /// Whether what [`SeaAt::stretched_height`] gives at a height (m) depends on the elevation.
     pub fn needs_elevation(&self, height: f64) -> bool {
         match self.sea.stretching {
             Stretching::Exponential | Stretching::Linear => false,
@@ -328,7 +328,7 @@ impl<'a> SeaAt<'a> {
         }
     }
 
-    /// Whether the kinematics are smooth up to the surface of the waves, not up to where [`SeaAt::stretched`] begins to rise.
+    /// Whether the kinematics are smooth up to the surface of the waves, not up to where [`SeaAt::stretched_height`] begins to rise.
     pub fn ends_at_surface(&self) -> bool {
         self.sea.stokes.is_some() || matches!(self.sea.stretching, Stretching::Wheeler | Stretching::Exponential)
     }
