@@ -1,4 +1,4 @@
-//! How curves are told apart: colours, and dashes once the colours are used up.
+//! How curves differ: colours, and dashes once the colours are used up.
 
 use plotters::prelude::RGBColor;
 
