@@ -332,7 +332,7 @@ fn write_manual(dir: &Path) -> u8 {
             folder.write(&name.to_string_lossy(), page.text.as_bytes()).map_err(|error| error.to_string())
         });
         match done {
-            Ok(place) => written.push(place),
+            Ok(position) => written.push(position),
             Err(error) => {
                 complain(&format!("the manual cannot be written: {error}"));
                 return 1;

@@ -188,7 +188,7 @@ pub enum UserFile {
     /// Being written.
     Writing {
         /// Where it will be.
-        place: FilePlace,
+        position: FilePlace,
         /// The lines so far.
         text: String,
         /// The name in the record that opened it.
@@ -227,8 +227,8 @@ impl UserFiles {
     /// Gives a type its file.
     pub fn insert(&mut self, kind: String, file: UserFile) {
         self.remove(&kind);
-        if let UserFile::Writing { place, .. } = &file {
-            self.types.insert(place.path().to_path_buf(), kind.clone());
+        if let UserFile::Writing { position, .. } = &file {
+            self.types.insert(position.path().to_path_buf(), kind.clone());
         }
         self.opened += 1;
         self.by_type.insert(kind, (self.opened, file));
@@ -236,8 +236,8 @@ impl UserFiles {
 
     /// Takes away the file of a type.
     pub fn remove(&mut self, kind: &str) {
-        if let Some((_, UserFile::Writing { place, .. })) = self.by_type.remove(kind) {
-            self.types.remove(place.path());
+        if let Some((_, UserFile::Writing { position, .. })) = self.by_type.remove(kind) {
+            self.types.remove(position.path());
         }
     }
 

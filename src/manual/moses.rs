@@ -68,11 +68,11 @@ struct RecordRow {
 
 /// The page.
 pub fn build_page() -> String {
-    let places: Vec<(Option<&'static MenuSpec>, Vec<RecordRow>)> = std::iter::once(None)
+    let positions: Vec<(Option<&'static MenuSpec>, Vec<RecordRow>)> = std::iter::once(None)
         .chain(menu::ALL.iter().copied().map(Some))
-        .map(|place| (place, rows_of_menu(place)))
+        .map(|position| (position, rows_of_menu(position)))
         .collect();
-    let states = || places.iter().flat_map(|(_, rows)| rows).map(|row| row.state);
+    let states = || positions.iter().flat_map(|(_, rows)| rows).map(|row| row.state);
     let options = moses_options();
     let counts: Vec<[String; 3]> = RecordState::ALL
         .iter()
@@ -88,8 +88,8 @@ pub fn build_page() -> String {
          it is read and has no effect on results. **refused**: it asks for results that windlass does not compute.\n\n"
     );
     text.push_str(&table(["State", "Records", "Options of records that act"], &counts));
-    for (place, rows) in places.iter().filter(|(_, rows)| !rows.is_empty()) {
-        let head = place.map_or("Every menu".to_string(), |menu| format!("Menu {}", escape(menu.name)));
+    for (position, rows) in positions.iter().filter(|(_, rows)| !rows.is_empty()) {
+        let head = position.map_or("Every menu".to_string(), |menu| format!("Menu {}", escape(menu.name)));
         let cells: Vec<[String; 4]> = rows
             .iter()
             .map(|row| [code(row.name), row.state.word().into(), row.says.clone(), row.options.clone()])
@@ -126,8 +126,8 @@ fn moses_options() -> Vec<&'static OptionSpec> {
 }
 
 /// The records of a menu, those of every menu where there is none; one that several menus share stands in the first.
-fn rows_of_menu(place: Option<&'static MenuSpec>) -> Vec<RecordRow> {
-    let here = |menus: &[&'static MenuSpec]| menus.first().copied() == place;
+fn rows_of_menu(position: Option<&'static MenuSpec>) -> Vec<RecordRow> {
+    let here = |menus: &[&'static MenuSpec]| menus.first().copied() == position;
     let commands = COMMANDS.iter().filter(|command| command.spec.owner == Owner::Moses && here(command.spec.menus));
     let mut rows: Vec<RecordRow> = commands
         .map(|command| RecordRow {
@@ -137,7 +137,7 @@ fn rows_of_menu(place: Option<&'static MenuSpec>) -> Vec<RecordRow> {
             options: idle_options(command.spec),
         })
         .collect();
-    if place.is_none() {
+    if position.is_none() {
         rows.extend(CONTROL.iter().map(|spec| RecordRow {
             name: spec.name,
             state: RecordState::Acts,

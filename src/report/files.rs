@@ -401,7 +401,7 @@ impl JobFolder {
     /// A name that leads nowhere, a missing folder, a folder of that name, a place the system does not let write to,
     /// a file outside of the job's folder that may not be made or exists, a name inside of it that a link leads out of it,
     /// a file in use.
-    pub fn place(&self, name: &str) -> Result<FilePlace, FileError> {
+    pub fn position(&self, name: &str) -> Result<FilePlace, FileError> {
         let spot = self.spot(name, true)?;
         self.not_in_use(&spot.path)?;
         let (dir, file) = spot.stand()?;
@@ -425,9 +425,9 @@ impl JobFolder {
     /// # Errors
     /// As [`JobFolder::place`] and [`FilePlace::write`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
-        let place = self.place(name)?;
-        place.write(bytes)?;
-        Ok(place.spot.path)
+        let position = self.position(name)?;
+        position.write(bytes)?;
+        Ok(position.spot.path)
     }
 
     /// Creates a file that grows as the job runs (a log); an earlier one is kept.
@@ -515,11 +515,11 @@ impl JobFolder {
             if !old.metadata().map_err(at)?.is_file() {
                 return Err(at(std::io::Error::other("only a file can be copied")));
             }
-            let place = FilePlace { spot: to, swept: self.swept.clone() };
-            let mut new = place.begin().map_err(beyond)?;
+            let position = FilePlace { spot: to, swept: self.swept.clone() };
+            let mut new = position.begin().map_err(beyond)?;
             std::io::copy(&mut old, &mut new).map_err(at)?;
             new.finish().map_err(beyond)?;
-            return Ok(place.spot.path);
+            return Ok(position.spot.path);
         }
         rename_new(&from_dir, from_name, &to_dir, to_name).map_err(|source| match source.kind() {
             ErrorKind::AlreadyExists => (NameOperand::To, FileError::Taken(to.path.clone())),

@@ -146,13 +146,13 @@ pub fn name_with_unit(name: &str, dim: Dim, units: UnitSystem) -> String {
 /// A tick label of an axis whose ticks are `step` apart and nowhere larger than `largest`: as many decimals as tell
 /// the ticks apart, E format where fixed decimals would be long.
 pub fn tick(value: f64, step: f64, largest: f64) -> String {
-    let place = |v: f64| if v > 0.0 { (v.log10() + 1e-9).floor() as i32 } else { 0 };
-    let (finest, coarsest) = (place(step), place(largest));
+    let position = |v: f64| if v > 0.0 { (v.log10() + 1e-9).floor() as i32 } else { 0 };
+    let (finest, coarsest) = (position(step), position(largest));
     if value.abs() < 0.5 * step {
         return "0".into();
     }
     if coarsest >= 9 || finest < -6 {
-        let digits = usize::try_from(place(value.abs()) - finest).unwrap_or(0);
+        let digits = usize::try_from(position(value.abs()) - finest).unwrap_or(0);
         return exponent(value, digits.min(16));
     }
     let decimals = usize::try_from(-finest).unwrap_or(0);
@@ -226,8 +226,8 @@ mod tests {
                 prop_assume!(want.is_finite());
                 let text = format_cell(&Cell::Number(value), dim, Digits::Usual, units, more);
                 let got: f64 = text.parse().unwrap();
-                let place = 10f64.powi(-i32::from(usual(dim, units) + more));
-                prop_assert!((got - want).abs() <= (0.5001 * place).max(0.000_51 * want.abs()), "{want} as {text}");
+                let position = 10f64.powi(-i32::from(usual(dim, units) + more));
+                prop_assert!((got - want).abs() <= (0.5001 * position).max(0.000_51 * want.abs()), "{want} as {text}");
                 prop_assert!(want == 0.0 || got != 0.0, "{want} as {text}");
             }
         }

@@ -137,7 +137,7 @@ fn checksum(bytes: &[u8]) -> u64 {
 
 fn scene_data(scene: &Scene, units: UnitSystem) -> String {
     let length = |value: f64| number(Dim::Length.from_si(value, units));
-    let place = |at: &Position| list([at[0], at[1], at[2]].map(length));
+    let position = |at: &Position| list([at[0], at[1], at[2]].map(length));
     let path = |path: &Polyline| {
         let kind = match path.stroke {
             Stroke::Inactive => "inactive",
@@ -147,18 +147,22 @@ fn scene_data(scene: &Scene, units: UnitSystem) -> String {
             Stroke::Unsolved => "unsolved",
             Stroke::Bottom => "bottom",
         };
-        object([("name", string(&path.name)), ("kind", string(kind)), ("points", list(path.points.iter().map(place)))])
+        object([
+            ("name", string(&path.name)),
+            ("kind", string(kind)),
+            ("points", list(path.points.iter().map(position))),
+        ])
     };
     let bodies = scene.bodies.iter().map(|body| {
         let shapes = body.panels.iter().chain(Some(&body.points).filter(|points| !points.is_empty()));
-        let shapes = shapes.map(|shape| list(shape.iter().map(place)));
-        object([("name", string(&body.name)), ("origin", place(&body.origin)), ("shapes", list(shapes))])
+        let shapes = shapes.map(|shape| list(shape.iter().map(position)));
+        object([("name", string(&body.name)), ("origin", position(&body.origin)), ("shapes", list(shapes))])
     });
     let anchors = scene.marks.iter().filter(|mark| mark.sign == Sign::Anchor);
     object([
         ("paths", list(scene.paths.iter().map(path))),
         ("bodies", list(bodies)),
-        ("anchors", list(anchors.map(|mark| place(&mark.at)))),
+        ("anchors", list(anchors.map(|mark| position(&mark.at)))),
         ("surface", length(scene.surface)),
         ("bottom", scene.bottom.map_or("null".into(), length)),
     ])

@@ -286,9 +286,9 @@ fn format_rows(table: &Table, units: UnitSystem, shown: CellFormat) -> Vec<Strin
         grid.add_row(row);
     }
     for (index, column) in table.columns().iter().enumerate() {
-        if let Some(place) = grid.column_mut(index) {
-            place.set_cell_alignment(if is_words(column) { CellAlignment::Left } else { CellAlignment::Right });
-            place.set_padding((1, 1));
+        if let Some(position) = grid.column_mut(index) {
+            position.set_cell_alignment(if is_words(column) { CellAlignment::Left } else { CellAlignment::Right });
+            position.set_padding((1, 1));
         }
     }
     let mut lines: Vec<String> = grid.lines().map(|l| l.trim_end().to_string()).collect();

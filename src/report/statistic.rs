@@ -15,7 +15,7 @@ pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Ta
     let at = independent.and_then(|i| table.columns().get(i));
     let (at_name, at_dim) = at.map_or(("Row".to_string(), Dim::None), |c| (format!("at {}", c.name), c.dim));
     let at_digits = if at.is_some() { Digits::Usual } else { Digits::Decimals(0) };
-    let place = |extreme: Option<(usize, f64)>| match (extreme, at) {
+    let position = |extreme: Option<(usize, f64)>| match (extreme, at) {
         (Some((row, _)), Some(c)) => c.cells.get(row).cloned().unwrap_or(Cell::Missing),
         (Some((row, _)), None) => Cell::from(row + 1),
         (None, _) => Cell::Missing,
@@ -29,9 +29,9 @@ pub fn table(table: &Table, independent: Option<usize>, columns: &[usize]) -> Ta
         .column("", "Mean", Dim::None, Digits::Scientific(6), |row| row.moments.map(|(mean, _)| mean))
         .column("", "Std. Dev.", Dim::None, Digits::Scientific(6), |row| row.moments.map(|(_, deviation)| deviation))
         .column("", "Minimum", Dim::None, Digits::Scientific(6), |row| row.low.map(|(_, value)| value))
-        .column("", &at_name, at_dim, at_digits, |row| place(row.low))
+        .column("", &at_name, at_dim, at_digits, |row| position(row.low))
         .column("", "Maximum", Dim::None, Digits::Scientific(6), |row| row.high.map(|(_, value)| value))
-        .column("", &at_name, at_dim, at_digits, |row| place(row.high))
+        .column("", &at_name, at_dim, at_digits, |row| position(row.high))
         .build()
 }
 

@@ -34,7 +34,7 @@ const JUDGEMENTS: [(Judgement, &str, &str); 5] = [
 #[derive(Debug)]
 struct ListedRecord {
     judgement: Judgement,
-    place: String,
+    position: String,
     said: String,
 }
 
@@ -55,13 +55,13 @@ pub struct CheckReport {
 }
 
 impl CheckReport {
-    pub(super) fn add(&mut self, judgement: Judgement, name: String, place: String, said: String) {
+    pub(super) fn add(&mut self, judgement: Judgement, name: String, position: String, said: String) {
         let counts = self.counts.entry(name).or_default();
         for (count, _) in counts.iter_mut().zip(JUDGEMENTS).filter(|(_, (listed, ..))| *listed == judgement) {
             *count += 1;
         }
         if judgement != Judgement::Acts && self.listed.len() < MAX_LISTED * JUDGEMENTS.len() {
-            self.listed.push(ListedRecord { judgement, place, said });
+            self.listed.push(ListedRecord { judgement, position, said });
         }
     }
 
@@ -99,7 +99,7 @@ impl CheckReport {
                     continue;
                 }
                 lines.extend([String::new(), title.to_string()]);
-                let line = |record: &&ListedRecord| format!("  {}  {}", record.place, record.said);
+                let line = |record: &&ListedRecord| format!("  {}  {}", record.position, record.said);
                 lines.extend(listed.iter().take(MAX_LISTED).map(line));
                 let more = listed.len().saturating_sub(MAX_LISTED);
                 lines.extend((more > 0).then(|| format!("  and {more} more")));

@@ -43,8 +43,8 @@ impl Session {
             lock(&check.report).ended = Some(format!("the check ended after {} s", MAX_TIME.as_secs()));
             return true;
         }
-        let place = self.interpreter.sources.place(record.whole());
-        lock(&check.report).at.clone_from(&place);
+        let position = self.interpreter.sources.location(record.whole());
+        lock(&check.report).at.clone_from(&position);
         check.judged = None;
         if let Some(checking) = &mut self.job.checking {
             checking.hangs_on_result = false;
@@ -72,7 +72,7 @@ impl Session {
             None => Judgement::Acts,
         };
         let said = stops.unwrap_or_else(|| text.replace(UNKNOWN, "(unknown)"));
-        lock(&check.report).add(judgement, name, place, said);
+        lock(&check.report).add(judgement, name, position, said);
         over
     }
 
@@ -122,10 +122,10 @@ impl Session {
     pub(super) fn judge_control_error(&mut self, error: &Diagnostic) {
         if let Some(check) = &mut self.check {
             let fatal = error.severity == Severity::Fatal;
-            let place = self.interpreter.sources.place(error.span.unwrap_or_default());
+            let position = self.interpreter.sources.location(error.span.unwrap_or_default());
             let mut report = lock(&check.report);
             report.ended = report.ended.take().or_else(|| fatal.then(|| error.message.clone()));
-            report.add(Judgement::Refused, "control".into(), place, error.message.clone());
+            report.add(Judgement::Refused, "control".into(), position, error.message.clone());
         }
     }
 

@@ -139,11 +139,11 @@ fn dense_factorisations_are_in_one_crate() {
             continue;
         }
         for (number, line) in code(&text).enumerate() {
-            let place = format!("{}:{}", path.display(), number + 1);
+            let position = format!("{}:{}", path.display(), number + 1);
             for method in &methods {
                 assert!(
                     !line.contains(method.as_str()),
-                    "{place} calls {method}): windlass_base::dense has it, guarded"
+                    "{position} calls {method}): windlass_base::dense has it, guarded"
                 );
             }
             // a name of nalgebra's decompositions comes from the guarded place, or not at all
@@ -152,7 +152,7 @@ fn dense_factorisations_are_in_one_crate() {
             let found = types.iter().find(|t| brought && words().any(|word| word == **t));
             assert!(
                 found.is_none(),
-                "{place} brings {} from nalgebra: windlass_base::dense has it, guarded",
+                "{position} brings {} from nalgebra: windlass_base::dense has it, guarded",
                 found.unwrap()
             );
         }

@@ -50,10 +50,10 @@ fn is_constant(statement: &str) -> bool {
 }
 
 /// Whether a place lies in a `const { }` block, or in the value of a constant.
-fn is_const(text: &str, place: usize) -> bool {
+fn is_const(text: &str, position: usize) -> bool {
     let mut closed = 0;
     let mut end_of_statement = None;
-    for (at, c) in text[..place].char_indices().rev() {
+    for (at, c) in text[..position].char_indices().rev() {
         match c {
             '}' | ')' | ']' => closed += 1,
             '{' | '(' | '[' if closed > 0 => closed -= 1,
@@ -65,7 +65,7 @@ fn is_const(text: &str, place: usize) -> bool {
             end_of_statement = end_of_statement.or(Some(at));
         }
     }
-    is_constant(&text[end_of_statement.map_or(0, |at| at + 1)..place])
+    is_constant(&text[end_of_statement.map_or(0, |at| at + 1)..position])
 }
 
 #[test]
@@ -79,10 +79,10 @@ fn value_keys_are_made_while_compiling() {
     // what makes keys of a declaration's own values
     let makes = |path: &Path| path.ends_with("base/src/spec.rs") || path.ends_with("language/src/spec.rs");
     for (path, text) in list.iter().filter(|(path, _)| !makes(path)) {
-        for place in makers(text) {
+        for position in makers(text) {
             count += 1;
-            if !is_const(text, place) {
-                let line = text[..place].lines().count();
+            if !is_const(text, position) {
+                let line = text[..position].lines().count();
                 found.push(format!("{}:{line}", path.display()));
             }
         }
@@ -104,7 +104,7 @@ fn choices_are_declared_by_their_enum() {
 
 #[test]
 fn key_outside_const_is_found() {
-    let is = |text: &str| makers(text).into_iter().map(|place| is_const(text, place)).collect::<Vec<_>>();
+    let is = |text: &str| makers(text).into_iter().map(|position| is_const(text, position)).collect::<Vec<_>>();
     assert_eq!(is("fn f() { given.number(const { TIME.number(\"T\") }) }"), [true]);
     assert_eq!(is("const T: ValueKey<f64> = TIME.number(\"T\");"), [true]);
     assert_eq!(is("fn f() {\n    const T: [X; 2] = [A, TIME\n        .number(\"T\")];\n}"), [true]);

@@ -102,18 +102,18 @@ impl<'a> CardLine<'a> {
 
     /// The place of the columns `first` to `last`; past the end of the line, the place where they would begin.
     pub fn span(&self, first: usize, last: usize) -> Span {
-        self.place(self.offset(first), self.offset(last + 1))
+        self.position(self.offset(first), self.offset(last + 1))
     }
 
     /// The place of bytes of the line.
-    pub fn place(&self, from: usize, to: usize) -> Span {
+    pub fn position(&self, from: usize, to: usize) -> Span {
         Span::new(self.source, self.start + from, self.start + to)
     }
 
     /// The place of a piece of the line (a slice of its text).
     pub fn place_of(&self, piece: &str) -> Span {
         let from = (piece.as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize).min(self.text.len());
-        self.place(from, (from + piece.len()).min(self.text.len()))
+        self.position(from, (from + piece.len()).min(self.text.len()))
     }
 
     /// The place of the line without the blanks before it.
@@ -165,7 +165,7 @@ pub struct Face<'a> {
     /// The keyword in capitals; empty on the cards of decks that have none.
     pub keyword: String,
     /// Place of the keyword.
-    pub place: Span,
+    pub position: Span,
     /// What follows.
     pub rest: &'a str,
 }
@@ -219,7 +219,7 @@ impl<'a> Face<'a> {
             (false, false) => return Err(wrong(5, 6, "an identifier of letters and digits belongs in columns 5-6")),
         };
         let rest = line.text.get(line.offset(from)..).unwrap_or_default();
-        Ok(Face { last, id, keyword: keyword.to_ascii_uppercase(), place: line.span(7, 10), rest })
+        Ok(Face { last, id, keyword: keyword.to_ascii_uppercase(), position: line.span(7, 10), rest })
     }
 
     /// Whether a line whose face does not fit seems to close its deck.

@@ -201,8 +201,8 @@ fn tether_refers(deck: &Deck, tether: &Tether, remarks: &mut Remarks) {
             }
             Some(_) => {}
         }
-        let place = |field: Field<i64>| deck.nodes.get(&field.value).map(|node| node.position);
-        if place(element.node1).zip(place(element.node2)).is_some_and(|(a, b)| a == b) {
+        let position = |field: Field<i64>| deck.nodes.get(&field.value).map(|node| node.position);
+        if position(element.node1).zip(position(element.node2)).is_some_and(|(a, b)| a == b) {
             remarks.add(
                 Diagnostic::error("deck 14, TELM: both nodes are at one place", element.span)
                     .label("an element has a length"),
@@ -311,8 +311,8 @@ fn bottom(deck: &Deck, line: &MooringLine, remarks: &mut Remarks) {
         (false, true) => line.ends.node1,
         _ => return,
     };
-    let Some(place) = deck.nodes.get(&anchor.value) else { return };
-    let (z, bed) = (place.position[2], -deck.global.depth);
+    let Some(position) = deck.nodes.get(&anchor.value) else { return };
+    let (z, bed) = (position.position[2], -deck.global.depth);
     if z >= 0.0 {
         let message = format!("deck 14: the anchor of this line is at Z = {z}, which is not below the water line");
         remarks.add(Diagnostic::error(message, anchor.span).label("a line lies on the bottom at its anchor"));
@@ -375,14 +375,14 @@ fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
                 .help("the nominal vessel is held by the linear stiffness of deck 7 [AQWA-TETHER 8.1.0]"),
         );
     }
-    let place = |number: i64| deck.nodes.get(&number).map(|node| node.position);
+    let position = |number: i64| deck.nodes.get(&number).map(|node| node.position);
     let elements = &tether.description.elements;
     let along: Vec<[f64; 3]> = elements
         .iter()
         .take(1)
         .map(|element| element.node1)
         .chain(elements.iter().map(|element| element.node2))
-        .filter_map(|field| place(field.value))
+        .filter_map(|field| position(field.value))
         .collect();
     let straight = along.windows(2).all(|pair| pair[1][0] > pair[0][0] && pair[1][1..] == pair[0][1..]);
     if !straight {
@@ -394,7 +394,7 @@ fn check_towed_tether(deck: &Deck, whole: bool, remarks: &mut Remarks) {
             .help("X increases from element to element; Y and Z stay (chapter 4 and 6.1)"),
         );
     }
-    let (Some(trailing), Some(first), Some(last)) = (place(tether.anchor.value), along.first(), along.last()) else {
+    let (Some(trailing), Some(first), Some(last)) = (position(tether.anchor.value), along.first(), along.last()) else {
         return;
     };
     let length = last[0] - first[0];

@@ -184,7 +184,7 @@ pub fn read(reader: &mut CardReader<'_>) -> JobDeck {
     while let Some(line) = reader.peek().cloned() {
         let Some(word) = CardLine::words(line.text).next() else { break };
         let rest =
-            line.text.get(line.place_of(word).end as usize - line.place(0, 0).start as usize..).unwrap_or_default();
+            line.text.get(line.place_of(word).end as usize - line.position(0, 0).start as usize..).unwrap_or_default();
         let word = word.to_ascii_uppercase();
         if let Some(once) = ["JOB", "TITLE", "RESTART"].into_iter().find(|name| *name == word) {
             match met.iter().find(|(name, _)| *name == once) {
@@ -311,7 +311,7 @@ fn read_restart(job: &mut JobDeck, restart: Option<CardLine<'_>>, remarks: &mut 
     }
     let mut words = CardLine::words(line.text).skip(1);
     // the name of the deck of an earlier run may hold blanks
-    let behind = CardLine::words(line.text).nth(2).map(|word| line.place_of(word).end - line.place(0, 0).start);
+    let behind = CardLine::words(line.text).nth(2).map(|word| line.place_of(word).end - line.position(0, 0).start);
     let mut stage = |name: &str| {
         let word = words.next().unwrap_or_default();
         let value = integer(word).and_then(|n| u8::try_from(n).ok()).filter(|n| (1..=6).contains(n));

@@ -213,7 +213,7 @@ impl CardLayout {
             id: face.id.to_string(),
             last: face.last,
             span: line.whole(),
-            place: face.place,
+            position: face.position,
             integers: Vec::new(),
             reals: Vec::new(),
             text: String::new(),
@@ -382,13 +382,13 @@ impl CardLayout {
         let mut reads_as_zero = is_row;
         for (index, (column, field)) in record.reals.iter().enumerate() {
             let Some(slot) = self.slots.iter().find(|slot| slot.column == *column) else { continue };
-            let place = format!("{}, columns {column}-{}", self.name_with_deck(deck), slot.last_column());
+            let position = format!("{}, columns {column}-{}", self.name_with_deck(deck), slot.last_column());
             let message = if !slot.default.is_empty() && field.value == 0.0 {
                 let stands = if field.given { "0 stands here" } else { "this field is blank" };
-                format!("{place}: {stands}: the default holds, {}", slot.default)
+                format!("{position}: {stands}: the default holds, {}", slot.default)
             } else if slot.default.is_empty() && index < last && !field.given && !slot.often_blank && !reads_as_zero {
                 reads_as_zero = true;
-                format!("{place}: this field is blank and reads as 0")
+                format!("{position}: this field is blank and reads as 0")
             } else {
                 continue;
             };
@@ -444,7 +444,7 @@ pub struct CardRecord {
     /// The card.
     pub span: Span,
     /// The keyword.
-    pub place: Span,
+    pub position: Span,
     integers: Vec<(usize, Field<i64>)>,
     reals: Vec<(usize, Field<f64>)>,
     /// What follows the keyword, on cards of text, with single blanks.

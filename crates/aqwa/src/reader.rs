@@ -290,7 +290,7 @@ impl<'a> CardReader<'a> {
             } else {
                 &face.keyword
             };
-            let mut error = Diagnostic::error(format!("{label} has no card `{word}`"), face.place)
+            let mut error = Diagnostic::error(format!("{label} has no card `{word}`"), face.position)
                 .label("a keyword of this deck belongs in columns 7-10");
             error.help.extend(did_you_mean(word, known()));
             let list: Vec<&str> = known().collect();
@@ -305,16 +305,16 @@ impl<'a> CardReader<'a> {
             CardSupport::Assumed => self.remarks.add_once(&format!("{label} {}", layout.keyword), || {
                 Diagnostic::remark(
                     format!("{label}, {}: no source confirms the columns of this card", layout.keyword),
-                    face.place,
+                    face.position,
                 )
                 .help(format!("assumed {}", layout.usage()))
             }),
             CardSupport::Refused(reason) => {
-                self.remarks.add(Diagnostic::error(format!("{label}, {}: {reason}", layout.keyword), face.place));
+                self.remarks.add(Diagnostic::error(format!("{label}, {}: {reason}", layout.keyword), face.position));
                 return None;
             }
             CardSupport::Passed(reason) => {
-                self.remarks.add(Diagnostic::warning(format!("{label}, {}: {reason}", layout.keyword), face.place));
+                self.remarks.add(Diagnostic::warning(format!("{label}, {}: {reason}", layout.keyword), face.position));
                 return None;
             }
         }

@@ -24,10 +24,10 @@ impl Deck {
 
     /// Unstretched length of a tether: the sum of its elements.
     pub fn unstretched_length(&self, tether: &Tether) -> Option<f64> {
-        let place = |node: i64| self.nodes.get(&node).map(|node| Vector3::from(node.position));
+        let position = |node: i64| self.nodes.get(&node).map(|node| Vector3::from(node.position));
         let mut length = 0.0;
         for element in &tether.description.elements {
-            length += (place(element.node2.value)? - place(element.node1.value)?).norm();
+            length += (position(element.node2.value)? - position(element.node1.value)?).norm();
         }
         Some(length)
     }

@@ -165,8 +165,8 @@ impl Builder {
                     );
                 }
                 let spring = EndSpringCard { towed: flag.value == 1, stiffness: record.reals(31), span: record.span };
-                let place = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
-                *place = Some(spring);
+                let position = if record.keyword == "TSPA" { &mut tether.anchor } else { &mut tether.vessel };
+                *position = Some(spring);
             }
             "TFAT" => {
                 let usual = Fatigue::default();
@@ -314,8 +314,8 @@ impl Builder {
         };
         let tether =
             Tether { description, copy_of, structure, node: record.int(16), anchor: record.int(26), span: record.span };
-        let place = |tether: &Tether| [tether.structure, tether.node, tether.anchor].map(|field| field.value);
-        if let Some(same) = earlier.iter().find(|earlier| place(earlier) == place(&tether)) {
+        let position = |tether: &Tether| [tether.structure, tether.node, tether.anchor].map(|field| field.value);
+        if let Some(same) = earlier.iter().find(|earlier| position(earlier) == position(&tether)) {
             let message = "deck 14, TETH: another tether stands between these nodes";
             let said = if copy_of.is_some() {
                 Diagnostic::error(message, record.span).label("leave out one of the two")

@@ -84,10 +84,10 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
     pub fn add_block(&mut self, row: usize, column: usize, block: &nalgebra::Matrix3<f64>) {
         for i in 0..3 {
             let start = column + H - row - i;
-            let place = &mut self.rows[row + i][start..start + 3];
-            place[0] += block[(i, 0)];
-            place[1] += block[(i, 1)];
-            place[2] += block[(i, 2)];
+            let position = &mut self.rows[row + i][start..start + 3];
+            position[0] += block[(i, 0)];
+            position[1] += block[(i, 1)];
+            position[2] += block[(i, 2)];
         }
     }
 
@@ -95,8 +95,8 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
     #[inline(always)]
     pub fn add_to_row<const N: usize>(&mut self, row: usize, column: usize, values: [f64; N]) {
         let start = column + H - row;
-        for (place, value) in self.rows[row][start..start + N].iter_mut().zip(values) {
-            *place += value;
+        for (position, value) in self.rows[row][start..start + N].iter_mut().zip(values) {
+            *position += value;
         }
     }
 

@@ -74,8 +74,8 @@ mod tests {
     fn rotation_is_yaw_then_pitch_then_roll_about_rotated_axes() {
         let quarter = std::f64::consts::FRAC_PI_2;
         // yaw by 90 takes x to y; a pitch then acts about the turned y axis, which is -x
-        let place = Place { shift: [1.0, 2.0, 3.0], turn: [0.0, quarter, quarter] };
-        let got = place.apply([1.0, 0.0, 0.0]);
+        let position = Place { shift: [1.0, 2.0, 3.0], turn: [0.0, quarter, quarter] };
+        let got = position.apply([1.0, 0.0, 0.0]);
         for (a, b) in got.iter().zip([1.0, 2.0, 2.0]) {
             assert!((a - b).abs() < 1e-12, "{got:?}");
         }
@@ -86,9 +86,9 @@ mod tests {
         for quarters in -9..=9 {
             let turn = f64::from(quarters * 90).to_radians();
             for axis in 0..3 {
-                let mut place = Place::default();
-                place.turn[axis] = turn;
-                assert!(place.rotation().matrix().iter().all(|e| *e == e.round()), "{quarters} about {axis}");
+                let mut position = Place::default();
+                position.turn[axis] = turn;
+                assert!(position.rotation().matrix().iter().all(|e| *e == e.round()), "{quarters} about {axis}");
             }
         }
         assert_eq!(Place::new([0.0, 0.0, 0.0, 0.0, 0.0, FRAC_PI_2]).apply([10.0, 0.0, 0.0]), [0.0, 10.0, 0.0]);
@@ -99,8 +99,8 @@ mod tests {
     fn rotations_match_euler_angles() {
         for step in 0..200 {
             let [roll, pitch, yaw] = [0.37, 0.91, -1.13].map(|rate| rate * f64::from(step));
-            let place = Place::new([0.0, 0.0, 0.0, roll, pitch, yaw]);
-            let difference = place.rotation().matrix() - Rotation3::from_euler_angles(roll, pitch, yaw).matrix();
+            let position = Place::new([0.0, 0.0, 0.0, roll, pitch, yaw]);
+            let difference = position.rotation().matrix() - Rotation3::from_euler_angles(roll, pitch, yaw).matrix();
             assert!(difference.amax() < 1e-14, "{difference}");
         }
     }

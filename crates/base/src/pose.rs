@@ -23,8 +23,8 @@ impl Default for Pose {
 
 impl Pose {
     /// The pose of a place.
-    pub fn from_place(place: &Place) -> Self {
-        Pose { origin: place.shift.into(), axes: *place.rotation().matrix() }
+    pub fn from_place(position: &Place) -> Self {
+        Pose { origin: position.shift.into(), axes: *position.rotation().matrix() }
     }
 
     /// A pose with global axes at a position.
@@ -54,7 +54,7 @@ impl Pose {
 
     /// The place with these axes: roll, pitch, yaw with pitch in [-90, 90] degrees and the yaw and roll nearest to those
     /// of `near`; a pose that is that of `near` gives `near` itself.
-    pub fn place(&self, near: &Place) -> Place {
+    pub fn position(&self, near: &Place) -> Place {
         if Pose::from_place(near) == *self {
             return *near;
         }
@@ -83,13 +83,13 @@ mod tests {
     fn point_transforms_to_pose_and_back() {
         for step in 0..100 {
             let [roll, pitch, yaw] = [0.37, 0.011, -1.13].map(|rate| rate * f64::from(step));
-            let place = Place::new([1.0, 2.0, 3.0, roll, pitch, yaw]);
-            let turned = Pose::from_place(&place).after_motion(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
-            let back = turned.place(&place);
-            for (a, b) in back.turn.iter().zip(place.turn) {
-                assert!((a - b).abs() < 1e-7, "{back:?} {place:?}");
+            let position = Place::new([1.0, 2.0, 3.0, roll, pitch, yaw]);
+            let turned = Pose::from_place(&position).after_motion(&Six::new(0.0, 0.0, 0.0, 1e-9, 0.0, 0.0));
+            let back = turned.position(&position);
+            for (a, b) in back.turn.iter().zip(position.turn) {
+                assert!((a - b).abs() < 1e-7, "{back:?} {position:?}");
             }
-            assert_eq!(Pose::from_place(&place).place(&place), place);
+            assert_eq!(Pose::from_place(&position).position(&position), position);
         }
     }
 

@@ -222,7 +222,7 @@ impl Given {
     }
 
     /// Where a value stands, or the option when it is left out.
-    pub fn place<T: ?Sized>(&self, key: ValueKey<T>) -> Span {
+    pub fn position<T: ?Sized>(&self, key: ValueKey<T>) -> Span {
         self.value(key).map_or(self.span, |value| value.span)
     }
 
@@ -321,7 +321,7 @@ impl<'a> Group<'a> {
     }
 
     /// Where a value stands, or the group's first one when it is left out.
-    pub fn place<T: ?Sized>(&self, key: impl Into<ValueKey<T>>) -> Span {
+    pub fn position<T: ?Sized>(&self, key: impl Into<ValueKey<T>>) -> Span {
         self.value(key).or(self.values.first()).map_or(Span::default(), |value| value.span)
     }
 }
@@ -369,7 +369,7 @@ impl Args {
     }
 
     /// The place of a positional datum, or of the command when it is not there.
-    pub fn place<T: ?Sized>(&self, key: DatumKey<T>) -> Span {
+    pub fn position<T: ?Sized>(&self, key: DatumKey<T>) -> Span {
         self.datum(key).map_or(self.span, |value| value.span)
     }
 

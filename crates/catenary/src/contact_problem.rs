@@ -58,6 +58,9 @@ impl<'a> ContactProblem<'a> {
     }
 
     /// Policy iteration.
+    ///
+    /// # Errors
+    /// A search that finds no root, or a set of touching joints that goes on changing.
     pub fn solve_active_set(&mut self) -> Result<LineSolution, LineError> {
         let mut iterations = 0;
         for change in 0..MAX_SINGLE_CHANGES {

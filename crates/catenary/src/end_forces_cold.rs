@@ -21,6 +21,10 @@ const COLD_START: NewtonOptions = NewtonOptions { evaluations: 40, tolerance: 0.
 pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-9;
 
 /// See [`Segment::solve_end_forces`].
+///
+/// # Errors
+/// Numbers that are not finite or make no line, a fairlead below the bottom, a line stretched beyond what its force can be found
+/// for.
 pub fn solve_end_forces(segment: &Segment, x: f64, z: f64, bottom: Option<FlatBottom>) -> Result<EndForces, LineError> {
     check(segment, x, z, bottom)?;
     solve_cold_start(segment, x, z, bottom)

@@ -17,6 +17,9 @@ const WARM_START: NewtonOptions =
     NewtonOptions { evaluations: 8, tolerance: 1e-2 * RESIDUAL_TOLERANCE, line_search: false };
 
 /// See [`Segment::solve_warm_start`].
+///
+/// # Errors
+/// Those of the cold search, which takes over where the warm start does not converge.
 pub fn solve_warm_start(
     segment: &Segment,
     x: f64,

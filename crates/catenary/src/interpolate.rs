@@ -107,8 +107,8 @@ impl Interpolated {
         let curve = |f: &dyn Fn(&TableRow) -> f64| {
             InterpolatedQuantity::new(&x, rows.iter().map(|r| finite(f(r))).collect(), None)
         };
-        let place = |m: fn(&TableRow) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &TableRow| m(r)[i][j]);
-        let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| place(|r| r.state.coupling, i, j));
+        let position = |m: fn(&TableRow) -> [[f64; 2]; 2], i: usize, j: usize| curve(&|r: &TableRow| m(r)[i][j]);
+        let coupling = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| position(|r| r.state.coupling, i, j));
         Ok(Interpolated {
             force: InterpolatedQuantity::new(&x, of(|r| r.state.force), Some(of(|r| 1.0 / r.state.dx_dh))),
             vertical: InterpolatedQuantity::new(
@@ -121,7 +121,7 @@ impl Interpolated {
             grounded: curve(&|r| r.state.grounded),
             ratio: curve(&|r| r.ratio),
             unlike: curve(&|r| r.state.stiffness[0][1] - r.state.stiffness[1][0]),
-            heave: place(|r| r.state.stiffness, 1, 1),
+            heave: position(|r| r.state.stiffness, 1, 1),
             coupling,
             x,
         })

@@ -204,21 +204,21 @@ impl Line {
     /// # Errors
     /// Fewer than two places, distances that do not grow from 0, values that are not finite, negative friction, an anchor
     /// below the bottom.
-    pub fn over_profile(self, places: &[(f64, f64)], friction: f64) -> Result<Line, LineError> {
+    pub fn over_profile(self, positions: &[(f64, f64)], friction: f64) -> Result<Line, LineError> {
         let number = self.segments.len();
         let refused = |what, value| LineError::Value { what, segment: number, value };
-        let (Some(&(from, elevation)), Some(&(last, _))) = (places.first(), places.get(1)) else {
-            return Err(refused("the number of places of the bottom", places.len() as f64));
+        let (Some(&(from, elevation)), Some(&(last, _))) = (positions.first(), positions.get(1)) else {
+            return Err(refused("the number of places of the bottom", positions.len() as f64));
         };
-        for (at, z) in places {
+        for (at, z) in positions {
             if !z.is_finite() || !at.is_finite() || z.abs().max(at.abs()) >= MAX_MAGNITUDE {
                 return Err(refused("a place of the bottom", if z.is_finite() { *at } else { *z }));
             }
         }
-        if from != 0.0 || places.iter().zip(places.iter().skip(1)).any(|(a, b)| b.0 <= a.0) {
+        if from != 0.0 || positions.iter().zip(positions.iter().skip(1)).any(|(a, b)| b.0 <= a.0) {
             return Err(refused("a distance along the bottom", last));
         }
-        let profile = SeabedProfile::new(places);
+        let profile = SeabedProfile::new(positions);
         let floor = SeabedModel { elevation, slope: profile.tilt(0).slope(), friction };
         self.with_profile(Some(floor), profile)
     }

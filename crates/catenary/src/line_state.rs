@@ -48,8 +48,8 @@ impl Line {
                 coupling = [[0.0, 0.0], [0.0, far]];
             }
         }
-        let places = self.places(&rested, wanted, fairlead);
-        let x = wanted.unwrap_or_else(|| places.last().map_or(0.0, |p| p.0));
+        let positions = self.positions(&rested, wanted, fairlead);
+        let x = wanted.unwrap_or_else(|| positions.last().map_or(0.0, |p| p.0));
         let segments = self.segment_states(&rested, slack.then_some(least));
         let state = LineState {
             force: force.0,
@@ -63,17 +63,17 @@ impl Line {
             coupling,
             grounded: segments.iter().map(|s| s.grounded).sum(),
             grounded_stretched: rested.held.iter().map(|h| h.ground_stretched).sum(),
-            touchdown: self.touchdown(&rested, &places),
-            joints: self.joint_states(&rested, &places),
+            touchdown: self.touchdown(&rested, &positions),
+            joints: self.joint_states(&rested, &positions),
             below_bottom: self.below_bottom(&rested),
-            above_surface: self.above_surface(&rested, &places),
+            above_surface: self.above_surface(&rested, &positions),
             segments,
             slack,
             heap: None,
             iterations: rested.iterations,
             residual,
             unbalance: rested.unbalance,
-            places,
+            positions,
             rested,
             laid: None,
         };
@@ -89,14 +89,14 @@ impl Line {
     }
 
     /// Ends of the pieces: distance from the fairlead and elevation (m).
-    fn places(&self, rested: &LineSolution, x: Option<f64>, fairlead: f64) -> Vec<(f64, f64)> {
+    fn positions(&self, rested: &LineSolution, x: Option<f64>, fairlead: f64) -> Vec<(f64, f64)> {
         // a slack line lies straight from the anchor, what is too long in a heap at the touchdown
         let mut lies = x.unwrap_or(f64::INFINITY);
         lies -= rested.held.iter().map(|h| h.upper.x + h.lower.x).sum::<f64>();
         let mut at = 0.0;
-        let mut places: Vec<(f64, f64)> = Vec::with_capacity(rested.z.len());
+        let mut positions: Vec<(f64, f64)> = Vec::with_capacity(rested.z.len());
         for (i, z) in rested.z.iter().enumerate().rev() {
-            places.push((at, *z));
+            positions.push((at, *z));
             if let Some(held) = i.checked_sub(1).and_then(|i| rested.held.get(i)) {
                 let legs = held.upper.x + held.lower.x;
                 let rest = (held.x - legs).min(lies.max(0.0));
@@ -104,15 +104,15 @@ impl Line {
                 at += legs + rest;
             }
         }
-        places.reverse();
+        positions.reverse();
         let x = x.unwrap_or(at);
-        let count = places.len();
-        let place = |(i, (at, z)): (usize, (f64, f64))| match i {
+        let count = positions.len();
+        let position = |(i, (at, z)): (usize, (f64, f64))| match i {
             0 => (0.0, fairlead),
             i if i + 1 == count => (x, self.anchor),
             _ => (x - at, z + self.datum()),
         };
-        places.into_iter().enumerate().map(place).collect()
+        positions.into_iter().enumerate().map(position).collect()
     }
 
     /// The rested lengths of line, without the springs at the ends.
@@ -142,11 +142,11 @@ impl Line {
             .collect()
     }
 
-    fn joint_states(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Vec<JointState> {
+    fn joint_states(&self, rested: &LineSolution, positions: &[(f64, f64)]) -> Vec<JointState> {
         let first = self.first_joint();
         let state = |(j, joint): (usize, &Joint)| {
             let at = j + first;
-            let (x, z) = places[at + 1];
+            let (x, z) = positions[at + 1];
             let (lift, reaction) = (rested.lifts[at], rested.reactions[at].max(0.0));
             let buoy = match (joint, rested.policy.stands.get(at)) {
                 (Joint::SpringBuoy { .. } | Joint::Buoy { .. }, Some(stand)) => Some(match stand {
@@ -164,10 +164,10 @@ impl Line {
     }
 
     /// Where the line, seen from the fairlead, first meets the bottom: distance from the fairlead and elevation (m).
-    fn touchdown(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Option<(f64, f64)> {
+    fn touchdown(&self, rested: &LineSolution, positions: &[(f64, f64)]) -> Option<(f64, f64)> {
         let (index, element, held) = self.lengths(rested).find(|(_, _, h)| h.ground > 0.0)?;
         let LinePiece::Length { segment, law, .. } = element else { return None };
-        let (x, z) = places.get(index).copied()?;
+        let (x, z) = positions.get(index).copied()?;
         if held.above == 0.0 {
             return Some((x, z));
         }
@@ -199,12 +199,12 @@ impl Line {
 
     /// Buoyant segments, and segments that begin at a buoyant joint, that rise above the water surface, with how far
     /// (m).
-    fn above_surface(&self, rested: &LineSolution, places: &[(f64, f64)]) -> Vec<(usize, f64)> {
+    fn above_surface(&self, rested: &LineSolution, positions: &[(f64, f64)]) -> Vec<(usize, f64)> {
         let scale = 1e-9 * (self.length() + self.anchor.abs());
         let mut list = Vec::new();
         for (number, (index, element, held)) in self.lengths(rested).enumerate() {
             let LinePiece::Length { segment, .. } = element else { continue };
-            let (_, low) = places[index + 1];
+            let (_, low) = positions[index + 1];
             let lifted = self.joints.get(number).is_some_and(|j| matches!(j, Joint::Weight(w) if *w < 0.0));
             let mut highest = if lifted { low } else { f64::NEG_INFINITY };
             if segment.weight < 0.0 {

@@ -121,8 +121,8 @@ impl MultiSegmentLine {
             let values = self.change(&rested, dh, dtop);
             let lists = [&mut rested.x_by, &mut rested.v_by, &mut rested.far_h_by, &mut rested.far_v_by];
             for (list, value) in lists.into_iter().zip(values) {
-                if let Some(place) = list.get_mut(index) {
-                    *place = value;
+                if let Some(position) = list.get_mut(index) {
+                    *position = value;
                 }
             }
         }

@@ -51,16 +51,17 @@ impl SeabedProfile {
 
     /// From points (distance from the anchor, elevation; m), growing and at least two, so that it has a face; neighbours in one plane are
     /// one face.
-    pub fn new(places: &[(f64, f64)]) -> SeabedProfile {
-        let mut kept: Vec<(f64, f64)> = Vec::with_capacity(places.len());
+    pub fn new(positions: &[(f64, f64)]) -> SeabedProfile {
+        let mut kept: Vec<(f64, f64)> = Vec::with_capacity(positions.len());
         let slope = |a: (f64, f64), b: (f64, f64)| (b.1 - a.1) / (b.0 - a.0);
-        for place in places {
+        for position in positions {
             while let [.., before, last] = kept.as_slice()
-                && (slope(*before, *last) - slope(*last, *place)).abs() <= 1e-12 * (1.0 + slope(*before, *last).abs())
+                && (slope(*before, *last) - slope(*last, *position)).abs()
+                    <= 1e-12 * (1.0 + slope(*before, *last).abs())
             {
                 kept.pop();
             }
-            kept.push(*place);
+            kept.push(*position);
         }
         let tilts = kept.iter().zip(kept.iter().skip(1)).map(|(a, b)| Tilt::new(slope(*a, *b))).collect();
         let (at, z) = kept.into_iter().unzip();

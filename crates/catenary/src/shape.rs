@@ -169,8 +169,8 @@ impl Line {
         let LinePiece::Length { segment: properties, law, .. } = element else { return None };
         let least = self.chain.least;
         let weight = properties.weight;
-        let (x, z) = state.places.get(index).copied()?;
-        let (end_x, end_z) = state.places.get(index + 1).copied()?;
+        let (x, z) = state.positions.get(index).copied()?;
+        let (end_x, end_z) = state.positions.get(index + 1).copied()?;
         // a leg of this length with these forces at its lower end
         let hang = |length: f64, h: f64, v: f64| {
             if length > 0.0 {

@@ -107,7 +107,7 @@ pub struct LineState {
     /// Largest force left at a joint (N): at most 1e-9 of the tension.
     pub unbalance: f64,
     /// Ends of the chain's pieces: distance from the fairlead and elevation (m).
-    pub(super) places: Vec<(f64, f64)>,
+    pub(super) positions: Vec<(f64, f64)>,
     pub(super) rested: LineSolution,
     /// The stretches of a line over a bottom that is not flat and smooth.
     pub(super) laid: Option<Box<LaidLine>>,

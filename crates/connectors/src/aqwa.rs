@@ -303,10 +303,10 @@ impl SegmentedClass for CatenaryClass {
 }
 
 impl StaticLineClass for CatenaryClass {
-    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let [_, _, far] = place.other.ok_or_else(no_other_end)?;
+    fn line(&self, position: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        let [_, _, far] = position.other.ok_or_else(no_other_end)?;
         let count = self.sections.len();
-        let length = |i: usize, s: &CatenarySection| place.first_length.filter(|_| i == 0).unwrap_or(s.length);
+        let length = |i: usize, s: &CatenarySection| position.first_length.filter(|_| i == 0).unwrap_or(s.length);
         let segments = self.sections.iter().enumerate().map(|(i, s)| Segment {
             length: length(i, s),
             weight: (s.mass - surroundings.water_density * s.area) * surroundings.gravity,
@@ -316,15 +316,15 @@ impl StaticLineClass for CatenaryClass {
         let joint =
             |s: &CatenarySection| s.joint.map_or(Joint::Free, |(_, net)| Joint::Weight(net * surroundings.gravity));
         let joints = self.sections.iter().take(count.saturating_sub(1)).map(joint);
-        let places: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
+        let positions: Vec<Span> = self.sections.iter().map(|s| s.span).collect();
         // ends on a structure see no bottom, an anchor lies on it
-        let floor = place.anchored.then_some(SeabedModel { elevation: far, slope: self.slope, friction: 0.0 });
+        let floor = position.anchored.then_some(SeabedModel { elevation: far, slope: self.slope, friction: 0.0 });
         let line = Line::new(segments.collect(), joints.collect(), far, surroundings.tide)
             .and_then(|l| l.with_seabed(floor))
             .and_then(|l| l.with_laws(self.sections.iter().map(CatenarySection::law).collect()))
-            .map_err(|e| line_error(&e, &places))?;
+            .map_err(|e| line_error(&e, &positions))?;
         // the table ends where the first section would pass its maximum: at a tension, not at a horizontal force
-        let [_, _, fairlead] = place.fairlead;
+        let [_, _, fairlead] = position.fairlead;
         let least = self.sections.iter().map(|s| s.largest).fold(f64::INFINITY, f64::min);
         let largest = line.at_tension(least, fairlead).map_or(least, |s| s.force);
         Ok(Box::new(Mooring {
@@ -334,10 +334,10 @@ impl StaticLineClass for CatenaryClass {
             largest,
             tabulated: false,
             profile: None,
-            place: place.clone(),
+            position: position.clone(),
             surface: surroundings.tide,
             bottom: surroundings.depth.map(|d| -d),
-            places,
+            positions,
             notes: vec![
                 "breaks are the maximum expected tensions of -TMAX; beyond them the tension is held (with -K: \
                          continues straight)"

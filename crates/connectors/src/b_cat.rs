@@ -55,7 +55,7 @@ const FLAG: DatumKey<o::CatenaryFlag> = SPEC.choice("FLAG");
 
 static KIND: LineClassKind = LineClassKind {
     spec: &SPEC,
-    flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.place(FLAG)),
+    flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.position(FLAG)),
     per_line: &[o::DEPANCHOR, o::FRICTION, o::SLOPE, o::TAB_LIM, o::SEND, o::X_PY, m::SEABED],
     max_bodies: 1,
     takes_spring_buoys: true,

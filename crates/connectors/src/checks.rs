@@ -21,14 +21,14 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
             if force <= *last_force {
                 return Err(Diagnostic::error(
                     format!("the forces of {} must grow from point to point", given.name()),
-                    pair.place(FORCE),
+                    pair.position(FORCE),
                 )
                 .label("not larger than the one before"));
             }
             if deflection <= *last_deflection {
                 return Err(Diagnostic::error(
                     format!("the deflections of {} must grow with the force", given.name()),
-                    pair.place(DEFLECTION),
+                    pair.position(DEFLECTION),
                 )
                 .label("not larger than the one before"));
             }
@@ -36,7 +36,7 @@ pub fn py_curve(given: &Given) -> Outcome<Vec<(f64, f64)>> {
         if (force == 0.0) != (deflection == 0.0) {
             return Err(Diagnostic::error(
                 format!("{} begins at zero force and zero deflection", given.name()),
-                pair.place(FORCE),
+                pair.position(FORCE),
             )
             .label("one of the two is zero alone"));
         }

@@ -29,8 +29,8 @@ const LEFT_OUT: [f64; 2] = [0.01, 0.1];
 impl Chord {
     /// From the first end to the other (m, global).
     fn vector(&self) -> [f64; 3] {
-        let [x, y, z] = self.line.place.fairlead;
-        let [fx, fy, _] = self.line.place.other.unwrap_or(self.line.place.fairlead);
+        let [x, y, z] = self.line.position.fairlead;
+        let [fx, fy, _] = self.line.position.other.unwrap_or(self.line.position.fairlead);
         [fx - x, fy - y, self.line.line.anchor() - z]
     }
 
@@ -117,7 +117,7 @@ impl ChordElement {
     /// # Errors
     /// An end whose place is not known.
     pub fn new(chord: Chord) -> Result<Self, ClassError> {
-        if chord.line.place.other.is_none() {
+        if chord.line.position.other.is_none() {
             return Err(no_other_end());
         }
         let law = chord.law();
@@ -230,13 +230,13 @@ impl LineModel for Chord {
 
     fn configuration(&self, condition: Condition) -> Result<LineConfiguration, ClassError> {
         let distance = match condition {
-            Condition::Placed => self.line.place.span().0,
+            Condition::Placed => self.line.position.span().0,
             Condition::Distance(x) => x,
             Condition::Horizontal(_) | Condition::Tension(_) | Condition::Vertical(_) => {
                 return self.line.configuration(condition);
             }
         };
-        let [_, _, fairlead] = self.line.place.fairlead;
+        let [_, _, fairlead] = self.line.position.fairlead;
         let drop = fairlead - self.line.line.anchor();
         let chord = distance.hypot(drop);
         let (force, _) = self.force(chord - self.line.line.length());

@@ -70,7 +70,7 @@ pub fn solve_with_link(
     size: f64,
     mut line: impl FnMut(f64, f64) -> Result<LineForces, LineError>,
 ) -> Result<(LineForces, [f64; 2]), LineError> {
-    let place = Vector2::from(from);
+    let position = Vector2::from(from);
     let straight = Vector2::from(straight);
     let link = |pull: [f64; 2]| {
         let pull = Vector2::from(pull);
@@ -86,14 +86,14 @@ pub fn solve_with_link(
         at.x = at.x.max(0.0);
         let plane = line(at.x, at.y)?;
         let (way, give) = link(plane.fairlead);
-        Ok(TrialPoint { at, plane, give, rest: place - at - way })
+        Ok(TrialPoint { at, plane, give, rest: position - at - way })
     };
-    let begun = start.map(|pull| at(place - link(pull).0));
+    let begun = start.map(|pull| at(position - link(pull).0));
     let mut now = match begun {
         Some(Ok(tried)) => tried,
-        _ => at(place)?,
+        _ => at(position)?,
     };
-    let fine = 4.0 * f64::EPSILON * (size + place.norm());
+    let fine = 4.0 * f64::EPSILON * (size + position.norm());
     for _ in 0..MAX_NEWTON_ITERATIONS {
         if now.rest.norm() <= fine || now.unbalance() <= CONVERGENCE_TOLERANCE * now.tension() {
             break;
@@ -109,7 +109,8 @@ pub fn solve_with_link(
     }
     let (tension, unbalance) = (now.tension(), now.unbalance());
     if now.rest.norm() > fine
-        && !(unbalance <= ACCEPTED_RESIDUAL * tension && now.rest.norm() <= ACCEPTED_RESIDUAL * (size + place.norm()))
+        && !(unbalance <= ACCEPTED_RESIDUAL * tension
+            && now.rest.norm() <= ACCEPTED_RESIDUAL * (size + position.norm()))
     {
         return Err(LineError::Unproven { residual: unbalance, tension });
     }

@@ -134,30 +134,30 @@ fn points(args: &Args, height: f64) -> Outcome<Points> {
     let mut made: Points = vec![(0.0, 0.0)];
     for pair in args.groups_from(REACTION) {
         let (Some(force), Some(deflection)) = (pair.number(REACTION), pair.number(DEFLECTION)) else { continue };
-        let place = pair.place(DEFLECTION);
+        let position = pair.position(DEFLECTION);
         if deflection == 0.0 && made.len() == 1 {
             if force > 0.0 {
-                return Err(Diagnostic::error("the curve of a FENDER begins at zero", pair.place(REACTION))
+                return Err(Diagnostic::error("the curve of a FENDER begins at zero", pair.position(REACTION))
                     .label("a reaction without deflection"));
             }
             continue;
         }
         if deflection >= height {
-            return Err(Diagnostic::error("a FENDER cannot be deflected by its whole height H", place)
+            return Err(Diagnostic::error("a FENDER cannot be deflected by its whole height H", position)
                 .help("points are pairs of reaction and deflection, P Y, as of -X_PY"));
         }
         if made.last().is_some_and(|(_, before)| deflection <= *before) {
-            return Err(Diagnostic::error("the deflections of a FENDER must grow from point to point", place)
+            return Err(Diagnostic::error("the deflections of a FENDER must grow from point to point", position)
                 .label("not larger than the one before"));
         }
         made.push((force, deflection));
     }
     match made.as_slice() {
         [.., before, last] if last.0 <= before.0 => {
-            let place = args.groups_from(REACTION).last().map_or(args.span, |point| point.place(REACTION));
+            let position = args.groups_from(REACTION).last().map_or(args.span, |point| point.position(REACTION));
             Err(Diagnostic::error(
                 "the curve of a FENDER must rise to its last point, beyond which its slope goes on",
-                place,
+                position,
             )
             .label("not larger than the one before"))
         }
@@ -234,8 +234,8 @@ impl ConnectorClass for Fender {
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
         let euler = connection.connector.euler.map_or(Matrix3::identity(), |turn| {
-            let place = Place { turn, ..Default::default() };
-            *place.rotation().matrix()
+            let position = Place { turn, ..Default::default() };
+            *position.rotation().matrix()
         });
         // X from the face toward the base: the face's body carries the axes
         let other_turn = euler * axes_along(&-self.normal);

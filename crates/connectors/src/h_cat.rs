@@ -56,7 +56,7 @@ const FLAG: DatumKey<o::CatenaryFlag> = H_CAT_SPEC.choice("FLAG");
 
 static KIND: LineClassKind = LineClassKind {
     spec: &H_CAT_SPEC,
-    flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.place(FLAG)),
+    flag: |args| args.choice(FLAG).map(|o::CatenaryFlag::Exact| args.position(FLAG)),
     per_line: &[o::SEND, o::X_PY, o::TAB_LIM, o::DEPANCHOR, o::FRICTION, o::SLOPE, m::SEABED],
     max_bodies: 2,
     takes_spring_buoys: false,

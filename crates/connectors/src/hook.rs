@@ -47,24 +47,24 @@ const LENGTH_ROUNDING_SHARE: f64 = 1e-9;
 
 /// The best position (m) in which no line is stretched; `None` where the lines do not reach one another.
 pub fn hook(lines: &[SlingConstraint], goal: SlingObjective) -> Option<Vector3<f64>> {
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     if let SlingObjective::Near(point) = goal {
-        places.push(point);
+        positions.push(point);
     }
     for (i, a) in lines.iter().enumerate() {
-        places.extend(goal.direction_from(a.node).try_normalize(0.0).map(|to| a.node + to * a.length));
+        positions.extend(goal.direction_from(a.node).try_normalize(0.0).map(|to| a.node + to * a.length));
         for (j, b) in lines.iter().enumerate().skip(i + 1) {
             let Some((centre, axis, radius)) = circle(a, b) else { continue };
             let to = goal.direction_from(centre);
-            places.extend((to - axis * axis.dot(&to)).try_normalize(1e-12).map(|to| centre + to * radius));
+            positions.extend((to - axis * axis.dot(&to)).try_normalize(1e-12).map(|to| centre + to * radius));
             for c in lines.iter().skip(j + 1) {
-                places.extend(crossing(centre, axis, radius, c).into_iter().flatten());
+                positions.extend(crossing(centre, axis, radius, c).into_iter().flatten());
             }
         }
     }
     let reached =
         |at: &Vector3<f64>| lines.iter().all(|l| (at - l.node).norm() <= l.length * (1.0 + LENGTH_ROUNDING_SHARE));
-    places.into_iter().filter(reached).min_by(|a, b| goal.distance_left(*a).total_cmp(&goal.distance_left(*b)))
+    positions.into_iter().filter(reached).min_by(|a, b| goal.distance_left(*a).total_cmp(&goal.distance_left(*b)))
 }
 
 /// The circle on which two lines end together: its centre, axis and radius.

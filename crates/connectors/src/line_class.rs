@@ -107,7 +107,7 @@ pub struct LineClass {
     /// What a dynamic line needs of them beside, of a kind that has dynamics.
     flexures: Vec<Flexure>,
     /// The record of each segment, or its -CLUMP.
-    places: Vec<Span>,
+    positions: Vec<Span>,
     /// The first flag.
     pub flag: Option<Span>,
     /// The first -TABLE: forces are interpolated.
@@ -128,7 +128,7 @@ impl LineClass {
             per_line: PerLineOptions::default(),
             sections: Vec::new(),
             flexures: Vec::new(),
-            places: Vec::new(),
+            positions: Vec::new(),
             flag: None,
             tabulated: None,
             seabed: Seabed::default(),
@@ -178,20 +178,20 @@ impl LineClass {
     /// The line with these springs at its ends.
     fn mooring(
         &self,
-        place: &Placement,
+        position: &Placement,
         surroundings: &Surroundings,
         springs: &[Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
         let mut made = match self.form() {
-            LineForm::OnBottom => self.on_bottom(place, surroundings, springs)?,
+            LineForm::OnBottom => self.on_bottom(position, surroundings, springs)?,
             LineForm::Hanging { has_weight } => {
                 let weight = |s: &LineSection| if has_weight { s.in_air() } else { 0.0 };
-                self.hanging(&self.sections, weight, place, surroundings, springs)?
+                self.hanging(&self.sections, weight, position, surroundings, springs)?
             }
             LineForm::Chord { .. } => {
                 let straight: Vec<LineSection> =
                     self.sections.iter().map(|s| LineSection { clump: 0.0, ..*s }).collect();
-                self.hanging(&straight, |_| 0.0, place, surroundings, springs)?
+                self.hanging(&straight, |_| 0.0, position, surroundings, springs)?
             }
         };
         made.notes.splice(0..0, (self.kind.notes)(self));
@@ -199,7 +199,7 @@ impl LineClass {
     }
 
     /// What a line is reported by, whatever its shape.
-    fn build_mooring(&self, line: Line, place: &Placement, surroundings: &Surroundings) -> Mooring {
+    fn build_mooring(&self, line: Line, position: &Placement, surroundings: &Surroundings) -> Mooring {
         Mooring {
             line,
             breaks: self.sections.iter().map(|s| s.breaking).collect(),
@@ -207,10 +207,10 @@ impl LineClass {
             largest: self.table_limit().unwrap_or(0.0),
             tabulated: self.is_tabulated(),
             profile: None,
-            place: place.clone(),
+            position: position.clone(),
             surface: surroundings.tide,
             bottom: surroundings.depth.map(|d| -d),
-            places: self.places.clone(),
+            positions: self.positions.clone(),
             notes: Vec::new(),
         }
     }
@@ -220,23 +220,23 @@ impl LineClass {
         &self,
         sections: &[LineSection],
         weight: impl Fn(&LineSection) -> f64,
-        place: &Placement,
+        position: &Placement,
         surroundings: &Surroundings,
         springs: &[Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
-        let [_, _, far] = place.other.ok_or_else(no_other_end)?;
-        let (segments, joints) = segments_and_joints(sections, place, weight);
+        let [_, _, far] = position.other.ok_or_else(no_other_end)?;
+        let (segments, joints) = segments_and_joints(sections, position, weight);
         let line = Line::new(segments, joints, far, surroundings.tide)
             .and_then(|l| l.with_seabed(None))
             .and_then(|l| l.with_springs(springs.clone()))
-            .map_err(|e| line_error(&e, &self.places))?;
-        Ok(self.build_mooring(line, place, surroundings))
+            .map_err(|e| line_error(&e, &self.positions))?;
+        Ok(self.build_mooring(line, position, surroundings))
     }
 
     /// A line on the bottom, which is a plane through its anchor or the profile of the bathymetry along its azimuth.
     fn on_bottom(
         &self,
-        place: &Placement,
+        position: &Placement,
         surroundings: &Surroundings,
         springs: &[Option<StretchLaw>; 2],
     ) -> Result<Mooring, ClassError> {
@@ -244,20 +244,20 @@ impl LineClass {
             ClassError::new("the depth at the anchor is not known")
                 .help("give -DEPANCHOR on the class, or -DEPTH on &ENV")
         };
-        let depth = match place.other {
-            Some([_, _, anchor]) if place.to_ground => -anchor,
+        let depth = match position.other {
+            Some([_, _, anchor]) if position.to_ground => -anchor,
             _ => self.anchor_depth(surroundings).ok_or_else(unknown)?,
         };
-        let error = |e: LineError| line_error(&e, &self.places);
-        let (segments, joints) = segments_and_joints(&self.sections, place, |s| s.submerged_weight(surroundings));
+        let error = |e: LineError| line_error(&e, &self.positions);
+        let (segments, joints) = segments_and_joints(&self.sections, position, |s| s.submerged_weight(surroundings));
         let slope = self.slope().unwrap_or(0.0);
         let floor = SeabedModel { elevation: -depth, slope, friction: self.friction() };
-        let (distance, azimuth) = place.span();
+        let (distance, azimuth) = position.span();
         let length = segments.iter().map(|s| s.length).sum::<f64>().max(distance);
-        let profile = place
+        let profile = position
             .bathymetry
             .as_ref()
-            .zip(place.other)
+            .zip(position.other)
             .map(|(grid, [x, y, _])| LineProfile::new(grid, [x, y], azimuth, length, self.friction()));
         let line = Line::new(segments, joints, -depth, surroundings.tide)
             .and_then(|l| match &profile {
@@ -269,14 +269,14 @@ impl LineClass {
         if depth <= -surroundings.tide {
             return Err(ClassError::new("the anchor lies above the water surface").help("check -DEPANCHOR and -ANCHOR"));
         }
-        let [_, _, fairlead] = place.fairlead;
+        let [_, _, fairlead] = position.fairlead;
         let flat = slope == 0.0 && profile.is_none();
         if flat && fairlead < -depth {
             return Err(
                 ClassError::new("the fairlead lies below the anchor's depth").help("check &INSTATE and -DEPANCHOR")
             );
         }
-        let mut made = Mooring { bottom: Some(-depth), ..self.build_mooring(line, place, surroundings) };
+        let mut made = Mooring { bottom: Some(-depth), ..self.build_mooring(line, position, surroundings) };
         if let Some(known) = surroundings.depth.filter(|d| (d - depth).abs() > 0.2 * d.max(depth) && flat) {
             let share = depth / known;
             made.notes.push(Note::warning(format!("the depth of the anchor is {share:.2} of the depth of &ENV")));
@@ -308,10 +308,10 @@ impl ConnectorClass for LineClass {
     }
 
     fn check(&self) -> Outcome<()> {
-        if let (Some(last), Some(place)) = (self.sections.last(), self.places.last())
+        if let (Some(last), Some(position)) = (self.sections.last(), self.positions.last())
             && last.clump < 0.0
         {
-            return Err(Diagnostic::error("a spring buoy cannot be part of the last segment", *place)
+            return Err(Diagnostic::error("a spring buoy cannot be part of the last segment", *position)
                 .label("this segment is attached to ground")
                 .help("add the next segment with the same class name, or make CW positive"));
         }
@@ -443,7 +443,7 @@ impl SegmentedClass for LineClass {
             self.flexures.push(Flexure::read(record, &section)?);
         }
         self.sections.push(section);
-        self.places.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
+        self.positions.push(args.option(&o::CLUMP).map_or(args.span, |clump| clump.span));
         (self.tabulated, self.flag) = (tabulated, flag);
         // both take, whatever the first has taken
         if self.per_line.take(args, kind.per_line) | self.per_line.take(args, &devices::OPTIONS) {
@@ -460,9 +460,9 @@ impl SegmentedClass for LineClass {
 }
 
 impl StaticLineClass for LineClass {
-    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
-        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), place)?;
-        let mut line = self.mooring(place, surroundings, &springs)?;
+    fn line(&self, position: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+        let springs = with_series(&self.springs, self.devices.convolution.as_ref(), position)?;
+        let mut line = self.mooring(position, surroundings, &springs)?;
         line.notes.extend(self.devices.notes());
         Ok(match self.form() {
             LineForm::Chord { takes_compression } => {

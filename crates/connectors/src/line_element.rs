@@ -42,7 +42,7 @@ impl LineElement {
     pub fn new(mooring: Mooring) -> Result<Self, ClassError> {
         mooring.distance_and_direction()?;
         let line = &mooring.line;
-        if line.floor().is_some() && !mooring.place.to_ground {
+        if line.floor().is_some() && !mooring.position.to_ground {
             return Err(ClassError::new("a line that lies on the bottom needs its other end in the ground")
                 .help("use H_CAT between two bodies"));
         }
@@ -59,7 +59,7 @@ impl LineElement {
         let (dx, dy) = (to.x - from.x, to.y - from.y);
         let x = dx.hypot(dy);
         let along = if x > 0.0 { [dx / x, dy / x] } else { [1.0, 0.0] };
-        let z = if self.mooring.place.to_ground { from.z } else { self.mooring.line.anchor() + from.z - to.z };
+        let z = if self.mooring.position.to_ground { from.z } else { self.mooring.line.anchor() + from.z - to.z };
         Ok((x, along, z))
     }
 
@@ -162,13 +162,13 @@ impl LineElement {
     /// Another number of ends than two.
     fn with_ends(&self, ends: &[End]) -> Result<Mooring, ClassError> {
         let [fairlead, other] = End::origins(ends)?.map(Into::into);
-        let place = Placement { fairlead, other: Some(other), ..self.mooring.place.clone() };
+        let position = Placement { fairlead, other: Some(other), ..self.mooring.position.clone() };
         let (_, _, z) = self.horizontal_distance(ends)?;
-        let [x, y, own] = place.fairlead;
+        let [x, y, own] = position.fairlead;
         // elevations in the line's own system
         let rise = z - own;
         Ok(Mooring {
-            place: Placement { fairlead: [x, y, z], ..place },
+            position: Placement { fairlead: [x, y, z], ..position },
             surface: self.mooring.surface + rise,
             bottom: self.mooring.bottom.map(|b| b + rise),
             ..self.mooring.clone()
@@ -295,7 +295,7 @@ impl ConnectorElement for LineElement {
     }
 
     fn as_anchored(&self) -> Option<&dyn AnchoredConnector> {
-        self.mooring.place.to_ground.then_some(self)
+        self.mooring.position.to_ground.then_some(self)
     }
 
     fn evaluate_wrenches(

@@ -52,12 +52,12 @@ impl LineProfile {
     /// An anchor below the bottom; depths that are not finite.
     pub fn lay(&self, line: Line) -> Result<Line, LineError> {
         let ([x, y], [ux, uy]) = (self.anchor, self.azimuth);
-        let place = |face: usize| {
+        let position = |face: usize| {
             let from_anchor = face as f64 * self.spacing;
             (from_anchor, self.grid.elevation_and_slopes(x - from_anchor * ux, y - from_anchor * uy).0)
         };
-        let places: Vec<(f64, f64)> = (0..=self.faces).map(place).collect();
-        line.over_profile(&places, self.friction)
+        let positions: Vec<(f64, f64)> = (0..=self.faces).map(position).collect();
+        line.over_profile(&positions, self.friction)
     }
 
     /// Direction from the fairlead to the anchor: a unit vector on the plan.

@@ -63,7 +63,7 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     const MOUTH: DatumKey<f64> = SPEC.number("OD(2)");
     let [length, pin, mouth] = args.numbers_or_zero(const { SPEC.numbers(["LEN", "OD(1)", "OD(2)"]) });
     if mouth < pin {
-        return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.place(MOUTH)));
+        return Err(Diagnostic::error("the cone's mouth OD(2) is smaller than the pin OD(1)", args.position(MOUTH)));
     }
     let keys = RestraintKeys {
         dof: const { SPEC.choice("DF") },

@@ -115,7 +115,7 @@ impl Mooring {
                 .with_factors(1.0, factor)
                 .ok_or_else(|| ClassError::new("the line stretches by a law of its own, not by one stiffness"))?,
         };
-        Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.places))?, profile, ..self.clone() })
+        Ok(Mooring { line: made.map_err(|e| line_error(&e, &self.positions))?, profile, ..self.clone() })
     }
 
     /// A weightless line that is not tight: no force.

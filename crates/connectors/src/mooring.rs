@@ -40,13 +40,13 @@ pub struct Mooring {
     /// The bathymetry below it, where it does not lie on a plane.
     pub profile: Option<LineProfile>,
     /// Its ends.
-    pub place: Placement,
+    pub position: Placement,
     /// Water surface and, where known, bottom at the anchor (m), for warnings of lines that see neither.
     pub surface: f64,
     /// Elevation of the sea bottom (m).
     pub bottom: Option<f64>,
     /// Records of the segments, for errors.
-    pub places: Vec<Span>,
+    pub positions: Vec<Span>,
     /// What is always reported of it.
     pub notes: Vec<Note>,
 }
@@ -54,20 +54,20 @@ pub struct Mooring {
 impl Mooring {
     /// Elevation of its fairlead (m).
     pub fn fairlead(&self) -> f64 {
-        let [_, _, z] = self.place.fairlead;
+        let [_, _, z] = self.position.fairlead;
         z
     }
 
     pub(super) fn error(&self, error: &LineError) -> ClassError {
-        line_error(error, &self.places)
+        line_error(error, &self.positions)
     }
 
     /// Horizontal distance of the ends as they are (m), and the direction from the first to the other.
     pub(super) fn distance_and_direction(&self) -> Result<(f64, [f64; 2]), ClassError> {
-        if self.place.other.is_none() {
+        if self.position.other.is_none() {
             return Err(no_other_end());
         }
-        Ok(self.place.span())
+        Ok(self.position.span())
     }
 
     pub(super) fn state(&self, condition: Condition) -> Result<LineState, ClassError> {
@@ -170,10 +170,10 @@ impl Mooring {
 /// Segments and joints of a line's sections; the first is as long as the placement says, where it does.
 pub fn segments_and_joints(
     sections: &[LineSection],
-    place: &Placement,
+    position: &Placement,
     weight: impl Fn(&LineSection) -> f64,
 ) -> (Vec<Segment>, Vec<Joint>) {
-    let length = |i: usize, s: &LineSection| place.first_length.filter(|_| i == 0).unwrap_or(s.length);
+    let length = |i: usize, s: &LineSection| position.first_length.filter(|_| i == 0).unwrap_or(s.length);
     let segment = |(i, s): (usize, &LineSection)| Segment { length: length(i, s), weight: weight(s), ea: s.ea };
     let joint = |s: &LineSection| match s.clump {
         0.0 => Joint::Free,
@@ -209,11 +209,11 @@ pub fn end_springs(options: &PerLineOptions) -> [Option<StretchLaw>; 2] {
 pub fn with_series(
     springs: &[Option<StretchLaw>; 2],
     curve: Option<&(String, Span)>,
-    place: &Placement,
+    position: &Placement,
 ) -> Result<[Option<StretchLaw>; 2], ClassError> {
     let [first, last] = springs.clone();
     let Some((name, span)) = curve else { return Ok([first, last]) };
-    let stiffness = place.series.ok_or_else(|| no_curve(name, *span))?;
+    let stiffness = position.series.ok_or_else(|| no_curve(name, *span))?;
     let spring = StretchLaw::Linear(stiffness);
     let first = first.map_or(spring.clone(), |law| StretchLaw::Series(vec![law, spring]));
     Ok([Some(first), last])
@@ -234,7 +234,7 @@ pub fn no_other_end() -> ClassError {
 }
 
 /// The error of a line, at the record of the segment it is about.
-pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
+pub fn line_error(error: &LineError, positions: &[Span]) -> ClassError {
     let segment = match error {
         LineError::Value { segment, value, .. } if value.abs() < 1e100 => Some(*segment),
         LineError::Pendant { segment, .. } | LineError::StretchLaw(segment) => Some(*segment),
@@ -275,7 +275,7 @@ pub fn line_error(error: &LineError, places: &[Span]) -> ClassError {
             .help("change the length, the place of the anchor or the buoys a little; without friction more is solved"),
         _ => made,
     };
-    match segment.and_then(|n| places.get(n.saturating_sub(1))) {
+    match segment.and_then(|n| positions.get(n.saturating_sub(1))) {
         Some(span) => made.with_span(*span),
         None => made,
     }

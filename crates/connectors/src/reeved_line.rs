@@ -416,10 +416,10 @@ fn span_element(
     length: f64,
     layout: &ReevedLayout,
 ) -> Result<Box<dyn ConnectorElement>, ClassError> {
-    let place = Placement { first_length: Some(length), ..span.placement.clone() };
+    let position = Placement { first_length: Some(length), ..span.placement.clone() };
     let class = span.class.as_line();
     let class = class.ok_or_else(|| ClassError::new(format!("a {} does not run over a pulley", span.class.kind())))?;
-    class.line(&place, &layout.surroundings)?.element()
+    class.line(&position, &layout.surroundings)?.element()
 }
 
 /// The force on an end (N).

@@ -72,13 +72,13 @@ fn build(records: &[ClassRecord]) -> Outcome<Arc<dyn ConnectorClass>> {
     let given = restraints(args, GENERALIZED_RESTRAINTS)?;
     match args.choice(SENSE).unwrap_or(Sense::Both) {
         Sense::Tension => {
-            return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.place(SENSE))
+            return Err(Diagnostic::error("a ROLLER only pushes: SENSE TENSION has no meaning", args.position(SENSE))
                 .help("leave SENSE out, or COMPRESSION"));
         }
         Sense::Compression if given.iter().any(|r| r.dof == Dof::X) => {
             return Err(Diagnostic::error(
                 "the X spring of a ROLLER, along the pipe, acts both ways",
-                args.place(SENSE),
+                args.position(SENSE),
             )
             .label("SENSE COMPRESSION cannot hold for it")
             .help("leave SENSE out: the rollers push all the same"));

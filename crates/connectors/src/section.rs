@@ -135,7 +135,7 @@ fn line_type_and_diameter(args: &Args) -> Outcome<Option<(&'static LineType, f64
 
 /// Where D of `-TYPE` stands.
 fn diameter_place(args: &Args) -> Span {
-    args.option_if_declared(&o::TYPE).map_or(args.span, |given| given.place(DIAMETER))
+    args.option_if_declared(&o::TYPE).map_or(args.span, |given| given.position(DIAMETER))
 }
 
 /// What a record with `-TYPE` should report to its writer: a diameter outside the range of the formulas, and which options
@@ -176,7 +176,7 @@ pub fn type_notices(args: &Args, units: UnitSystem) -> Vec<Diagnostic> {
     if args.number(OD).is_some() {
         let text =
             format!("OD is the diameter listed, and of the solid area; {} itself has D of -TYPE", line_type.name);
-        notices.push(*Diagnostic::remark(text, args.place(OD)));
+        notices.push(*Diagnostic::remark(text, args.position(OD)));
     }
     notices
 }
@@ -200,7 +200,7 @@ impl LineSection {
         if let Some(t) = thickness
             && 2.0 * t > od
         {
-            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.place(WALL)));
+            return Err(Diagnostic::error("the wall thickness T is larger than half of OD", args.position(WALL)));
         }
         let length = checks::length(args, kind)?;
         checks::py_curves(args)?;
@@ -296,7 +296,7 @@ pub fn bar_notice(
     }
     let advice =
         "-TYPE CHAIN_R4 D makes it a chain (&STATUS LINE_TYPES lists chain, wire and rope); -WTPLEN gives a weight";
-    Some(*Diagnostic::remark(text, last.place(OD)).help(advice))
+    Some(*Diagnostic::remark(text, last.position(OD)).help(advice))
 }
 
 /// The `&STATUS CLASS` table of a line: one row a segment.

@@ -61,7 +61,7 @@ const FLAG: DatumKey<BarFlag> = SL_ELEM_SPEC.choice("FLAG");
 
 static KIND: LineClassKind = LineClassKind {
     spec: &SL_ELEM_SPEC,
-    flag: |args| args.choice(FLAG).map(|BarFlag::Tension| args.place(FLAG)),
+    flag: |args| args.choice(FLAG).map(|BarFlag::Tension| args.position(FLAG)),
     per_line: &[o::SEND, o::X_PY, o::TAB_LIM],
     max_bodies: 2,
     takes_spring_buoys: false,

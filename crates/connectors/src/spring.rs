@@ -73,7 +73,7 @@ pub const GENERALIZED_RESTRAINTS: RestraintKeys =
 pub fn restraints(args: &Args, keys: RestraintKeys) -> Outcome<Vec<Restraint>> {
     let mut list: Vec<(Restraint, Span)> = Vec::new();
     for group in args.groups_from(keys.dof) {
-        let (Some(dof), span) = (group.choice(keys.dof), group.place(keys.dof)) else { continue };
+        let (Some(dof), span) = (group.choice(keys.dof), group.position(keys.dof)) else { continue };
         if let Some((_, first)) = list.iter().find(|(r, _)| r.dof == dof) {
             return Err(Diagnostic::error(format!("degree of freedom {} is given twice", dof.word()), span)
                 .other(*first, "first given here"));
@@ -126,7 +126,7 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
         const DF: ValueKey<Dof> = o::CONVOLUTION_DF.choice("DF");
         const NAME: ValueKey<str> = o::CONVOLUTION_DF.word("CVL_NAME");
         let (Some(dof), Some(name)) = (given.choice(DF), given.word(NAME)) else { continue };
-        let span = given.place(DF);
+        let span = given.position(DF);
         check_restrained(list, dof, symmetric, span)?;
         let number = dof.index();
         // of a symmetric element Y and Z are the same
@@ -135,7 +135,7 @@ fn convolutions(args: &Args, list: &[Restraint], symmetric: bool) -> Outcome<Vec
             return Err(Diagnostic::error(format!("-CONVOLUTION is given twice for {}", dof.word()), span)
                 .other(*first, "first given here"));
         }
-        seen.push((number, name.to_string(), given.place(NAME)));
+        seen.push((number, name.to_string(), given.position(NAME)));
     }
     Ok(seen)
 }
@@ -308,7 +308,7 @@ fn looks_along_x(args: &Args, kind: &str) -> Outcome<()> {
     let has_x = args.groups_from(keys.dof).any(|group| group.choice(keys.dof) == Some(Dof::X));
     let Some(sense) = args.choice(SENSE).filter(|sense| *sense != Sense::Both && !has_x) else { return Ok(()) };
     let text = format!("SENSE {} of {kind} goes by element X, which has no spring", sense.word());
-    Err(Diagnostic::error(text, args.place(SENSE))
+    Err(Diagnostic::error(text, args.position(SENSE))
         .label("the springs given would push and pull alike")
         .help("turn element X to their direction with -EULER of CONNECTOR and give X; BOTH for springs that act always; FENDER for a fender"))
 }

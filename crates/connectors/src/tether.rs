@@ -145,7 +145,7 @@ impl SegmentedClass for TetherClass {
         if 2.0 * thickness > od {
             return Err(Diagnostic::error(
                 "the wall thickness T is larger than half of OD",
-                args.place(const { TETHER_SPEC.number("T") }),
+                args.position(const { TETHER_SPEC.number("T") }),
             ));
         }
         let material = &record.defaults.material;

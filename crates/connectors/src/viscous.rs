@@ -133,9 +133,9 @@ const SEARCH_HALVINGS: usize = 24;
 /// Branches whose sum comes nearest to the points, by least squares with no negative stiffness: the relaxation times are spaced evenly
 /// on a log scale, between ends that are searched for.
 fn fit_branches(points: &[(f64, f64)], count: usize, by_time: bool) -> Vec<Maxwell> {
-    let places: Vec<f64> = points.iter().map(|p| p.0).filter(|x| *x > 0.0).collect();
-    let (least, most) = places.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
-    if places.is_empty() {
+    let positions: Vec<f64> = points.iter().map(|p| p.0).filter(|x| *x > 0.0).collect();
+    let (least, most) = positions.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
+    if positions.is_empty() {
         return Vec::new();
     }
     // a curve shows nothing of times far outside of its own

@@ -46,8 +46,8 @@ pub struct ZeroLength {
 /// where `-EULER` does not turn them.
 pub fn element_turns(connection: &Connection, holder: usize, own: Matrix3<f64>) -> (Matrix3<f64>, Matrix3<f64>) {
     let euler = connection.connector.euler.map_or(Matrix3::identity(), |turn| {
-        let place = Place { turn, ..Default::default() };
-        *place.rotation().matrix()
+        let position = Place { turn, ..Default::default() };
+        *position.rotation().matrix()
     });
     let turn = euler * own;
     let [first, second] = connection.connector.defined;

@@ -51,7 +51,7 @@ pub fn ambient(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Arc<dyn Ambient>
 }
 
 impl Ambient for EnvironmentAmbient {
-    fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]) {
+    fn flow(&self, time: f64, positions: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.streams_at_time(time);
         let prepared = || self.prepared.lock().unwrap_or_else(PoisonError::into_inner);
         // another thread that comes meanwhile prepares its own
@@ -62,15 +62,15 @@ impl Ambient for EnvironmentAmbient {
         });
         let level = self.steady.around.tide;
         let weight = self.sea.as_ref().map_or(1.0, |sea| (sea.density * sea.gravity).max(f64::MIN_POSITIVE));
-        for (place, out) in places.iter().zip(&mut *out) {
+        for (position, out) in positions.iter().zip(&mut *out) {
             *out = Flow::still_water(level);
             if !self.steady.is_still(Medium::Water) {
-                out.velocity = streams.velocity(Medium::Water, place.z).0;
+                out.velocity = streams.velocity(Medium::Water, position.z).0;
             }
-            out.wind = streams.velocity(Medium::Air, place.z).0;
+            out.wind = streams.velocity(Medium::Air, position.z).0;
         }
         if let Some(sea) = &sea {
-            sea.wetted_lines(places, |index, found| {
+            sea.wetted_lines(positions, |index, found| {
                 let Some(out) = out.get_mut(index) else { return };
                 out.velocity += found.velocity;
                 out.acceleration += found.acceleration;
@@ -81,12 +81,12 @@ impl Ambient for EnvironmentAmbient {
         *prepared() = sea.map(SeaAt::into_prepared);
     }
 
-    fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]) {
+    fn mean(&self, positions: &[Vector3<f64>], out: &mut [Flow]) {
         let streams = self.steady.mean();
-        for (place, out) in places.iter().zip(out) {
+        for (position, out) in positions.iter().zip(out) {
             *out = Flow::still_water(self.steady.around.tide);
-            out.velocity = streams.velocity(Medium::Water, place.z).0;
-            out.wind = streams.velocity(Medium::Air, place.z).0;
+            out.velocity = streams.velocity(Medium::Water, position.z).0;
+            out.wind = streams.velocity(Medium::Air, position.z).0;
         }
     }
 

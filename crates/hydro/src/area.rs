@@ -14,7 +14,7 @@ use windlass_base::pose::Six;
 #[derive(Debug)]
 pub struct AreaLoad {
     steady: Arc<Steady>,
-    place: LoadPlace,
+    position: LoadPlace,
     /// Columns: directions of the areas in the body; their sizes times shape coefficients (m2).
     axes: nalgebra::Matrix3<f64>,
     areas: Vector3<f64>,
@@ -32,8 +32,8 @@ impl AreaLoad {
     }
 
     /// Areas along the axes of the body (m2, shape coefficients included), at a place.
-    pub fn new(steady: Arc<Steady>, place: LoadPlace, areas: [f64; 3]) -> Self {
-        AreaLoad { steady, place, axes: nalgebra::Matrix3::identity(), areas: areas.into() }
+    pub fn new(steady: Arc<Steady>, position: LoadPlace, areas: [f64; 3]) -> Self {
+        AreaLoad { steady, position, axes: nalgebra::Matrix3::identity(), areas: areas.into() }
     }
 
     /// The same areas along other axes: the columns of a matrix, in the body.
@@ -44,7 +44,7 @@ impl AreaLoad {
 
 impl StreamLoad for AreaLoad {
     fn placement(&self) -> (&LoadPlace, &Steady) {
-        (&self.place, &self.steady)
+        (&self.position, &self.steady)
     }
 
     fn push(&self, stream: Vector3<f64>) -> StreamWrench {
@@ -52,7 +52,7 @@ impl StreamLoad for AreaLoad {
         if speed == 0.0 {
             return StreamWrench::zero();
         }
-        let half = 0.5 * self.steady.density(self.place.medium);
+        let half = 0.5 * self.steady.density(self.position.medium);
         let tensor = self.axes * nalgebra::Matrix3::from_diagonal(&(self.areas * half)) * self.axes.transpose();
         let force = tensor * stream * speed;
         let mut by_velocity = Matrix6x3::zeros();

@@ -142,12 +142,12 @@ struct PartAxes<'a> {
 
 impl PartAxes<'_> {
     fn point(&self, load: &PartLoad) -> Vector3<f64> {
-        self.part.place.apply(load.at).into()
+        self.part.position.apply(load.at).into()
     }
 
     /// Sees that tables by heading make sense in the body.
     fn upright(&self, load: &PartLoad) -> Result<(), ClassError> {
-        let [roll, pitch, _] = self.part.place.turn;
+        let [roll, pitch, _] = self.part.position.turn;
         if roll == 0.0 && pitch == 0.0 {
             return Ok(());
         }
@@ -172,7 +172,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
     let under_way = sea.is_some();
     let mut sum = BodyLoads { loads: Vec::new(), added_mass: Matrix6::zeros(), damping: Matrix6::zeros() };
     let drifts = |l: &PartLoad| matches!(l.kind, LoadKind::Drift { .. });
-    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.position));
     let mut around: Option<Arc<Steady>> = None;
     for part in model.parts_of(body) {
         let mine: Vec<&PartLoad> =
@@ -191,7 +191,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
             }
         };
         around = Some(Arc::clone(&steady));
-        let frame = PartAxes { part, axes: *part.place.rotation().matrix(), level: model.surroundings().tide };
+        let frame = PartAxes { part, axes: *part.position.rotation().matrix(), level: model.surroundings().tide };
         for load in &mine {
             let (before, mass, damping) = (sum.loads.len(), sum.added_mass, sum.damping);
             add_part_load(&mut sum, &steady, &frame, load, under_way)?;
@@ -281,8 +281,8 @@ fn add_part_load(
                 Fluid::Water => &[Medium::Water],
             };
             for medium in media.iter().copied().filter(|m| under_way || !steady.is_still(*m)) {
-                let place = LoadPlace { at, medium, shared: load.fluid == Fluid::ByHeight };
-                sum.loads.push(in_stream(Arc::clone(steady), frame, place, load)?);
+                let position = LoadPlace { at, medium, shared: load.fluid == Fluid::ByHeight };
+                sum.loads.push(in_stream(Arc::clone(steady), frame, position, load)?);
             }
         }
     }
@@ -293,18 +293,18 @@ fn add_part_load(
 fn in_stream(
     steady: Arc<Steady>,
     frame: &PartAxes,
-    place: LoadPlace,
+    position: LoadPlace,
     load: &PartLoad,
 ) -> Result<Box<dyn BodyLoad>, ClassError> {
     Ok(match &load.kind {
-        LoadKind::Area(areas) => Box::new(AreaLoad::new(steady, place, *areas).rotated_to_axes(frame.axes)),
+        LoadKind::Area(areas) => Box::new(AreaLoad::new(steady, position, *areas).rotated_to_axes(frame.axes)),
         LoadKind::Plate { area, normal } => {
-            Box::new(PlateLoad::new(steady, place, *area, frame.axes * Vector3::from(*normal)))
+            Box::new(PlateLoad::new(steady, position, *area, frame.axes * Vector3::from(*normal)))
         }
         LoadKind::Coefficients { rows, symmetric } => {
             frame.upright(load)?;
             let table = by_heading(frame, rows, *symmetric).map_err(|e| e.with_span(load.span))?;
-            Box::new(CoefficientLoad::new(steady, place, table))
+            Box::new(CoefficientLoad::new(steady, position, table))
         }
         _ => return Err(ClassError::new(format!("{} is no load of a stream", load.kind.name())).with_span(load.span)),
     })
@@ -313,7 +313,7 @@ fn in_stream(
 /// A table of a part as one of its body. The mirror of a symmetric one is that of the part.
 fn by_heading(frame: &PartAxes, rows: &[(f64, [f64; 6])], symmetric: bool) -> Result<ByHeading, ClassError> {
     let table = ByHeading::new(rows, symmetric)?;
-    let [_, _, yaw] = frame.part.place.turn;
+    let [_, _, yaw] = frame.part.position.turn;
     Ok(if yaw == 0.0 { table } else { table.rotate(yaw, |six| frame.to_body_axes(six.into()).into()) })
 }
 
@@ -338,7 +338,7 @@ fn drift(
     }
     for (load, table, symmetric) in tables {
         frame.upright(load)?;
-        let [_, _, yaw] = frame.part.place.turn;
+        let [_, _, yaw] = frame.part.position.turn;
         let turn = |six: Six| frame.to_body_axes(six.into()).into();
         let here = |error: ClassError| error.with_span(load.span);
         if let Some(sea) = sea {

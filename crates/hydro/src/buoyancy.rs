@@ -259,7 +259,7 @@ impl Solidified {
             let error = ClassError::new(format!("piece {name}: {why}"));
             Solidified { form: None, faults: vec![PieceFault { error, fatal: true, remark: false }] }
         };
-        let panels = match piece.shape.with_displacement(&part.place) {
+        let panels = match piece.shape.with_displacement(&part.position) {
             Shape::Tube { ends, diameter } => {
                 let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
                 return Solidified { form: Some(SolidForm::Tube(tube)), faults: Vec::new() };
@@ -315,7 +315,7 @@ fn summarise_faults(name: &str, faults: &[Fault]) -> Vec<PieceFault> {
 
 fn sentence(name: &str, fault: &Fault) -> ClassError {
     const AT: &str = "({}, {}, {})";
-    let (what, places): (String, Vec<[f64; 3]>) = match fault {
+    let (what, positions): (String, Vec<[f64; 3]>) = match fault {
         Fault::Open { edge } => {
             (format!("it is open: there is a panel on one side only of the edge from {AT} to {AT}"), edge.to_vec())
         }
@@ -329,13 +329,13 @@ fn sentence(name: &str, fault: &Fault) -> ClassError {
         }
         Fault::Degenerate { at, .. } => (format!("a panel at {AT} has no area"), vec![*at]),
     };
-    let values: Vec<(f64, Dim)> = places.into_iter().flatten().map(|x| (x, Dim::Length)).collect();
+    let values: Vec<(f64, Dim)> = positions.into_iter().flatten().map(|x| (x, Dim::Length)).collect();
     ClassError::with_values(format!("piece {name}: {what}"), &values)
 }
 
 /// The least and the greatest coordinates of a piece in its body (m).
 fn bounds(part: &Part, piece: &Piece) -> [Vector3<f64>; 2] {
-    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.with_displacement(&part.place) {
+    let (corners, beside): (Vec<[f64; 3]>, f64) = match piece.shape.with_displacement(&part.position) {
         Shape::Panels(panels) => (panels.into_iter().flatten().collect(), 0.0),
         Shape::Block { low, high } => (vec![low, high], 0.0),
         Shape::Bar { ends, sides } => (bar_panels(&ends, &sides).into_iter().flatten().collect(), 0.0),
@@ -359,7 +359,7 @@ fn are_disjoint(a: &[Vector3<f64>; 2], b: &[Vector3<f64>; 2]) -> bool {
 fn tube_of(part: &Part, piece: &Piece) -> Option<TubeHull> {
     match &piece.shape {
         Shape::Tube { ends, diameter } => {
-            let ends = ends.map(|at| Vector3::from(part.place.apply(at)));
+            let ends = ends.map(|at| Vector3::from(part.position.apply(at)));
             Some(TubeHull { ends, diameter: *diameter })
         }
         _ => None,

@@ -13,20 +13,20 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct CoefficientLoad {
     steady: Arc<Steady>,
-    place: LoadPlace,
+    position: LoadPlace,
     table: ByHeading,
 }
 
 impl CoefficientLoad {
     /// Coefficients (N s2/m2 and N s2/m about the point, body axes) by heading, at a place.
-    pub fn new(steady: Arc<Steady>, place: LoadPlace, table: ByHeading) -> Self {
-        CoefficientLoad { steady, place, table }
+    pub fn new(steady: Arc<Steady>, position: LoadPlace, table: ByHeading) -> Self {
+        CoefficientLoad { steady, position, table }
     }
 }
 
 impl StreamLoad for CoefficientLoad {
     fn placement(&self) -> (&LoadPlace, &Steady) {
-        (&self.place, &self.steady)
+        (&self.position, &self.steady)
     }
 
     fn push(&self, stream: Vector3<f64>) -> StreamWrench {

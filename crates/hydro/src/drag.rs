@@ -13,7 +13,7 @@ use windlass_model::ClassError;
 #[derive(Debug)]
 pub struct LinearDrag {
     steady: Arc<Steady>,
-    place: LoadPlace,
+    position: LoadPlace,
     by_velocity: Matrix6x3<f64>,
 }
 
@@ -21,8 +21,8 @@ impl LinearDrag {
     /// A matrix in body axes (N s/m, N s, N m s) at a point of the body (m). The current at the depth of the point acts
     /// through its first three columns; the water does not turn.
     pub fn new(steady: Arc<Steady>, at: Vector3<f64>, matrix: &Matrix6<f64>) -> Self {
-        let place = LoadPlace { at, medium: Medium::Water, shared: false };
-        LinearDrag { steady, place, by_velocity: matrix.fixed_columns::<3>(0).into_owned() }
+        let position = LoadPlace { at, medium: Medium::Water, shared: false };
+        LinearDrag { steady, position, by_velocity: matrix.fixed_columns::<3>(0).into_owned() }
     }
 
     fn push(&self, stream: Vector3<f64>) -> StreamWrench {
@@ -36,13 +36,13 @@ impl BodyLoad for LinearDrag {
     }
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        Ok(self.place.load(&self.steady, pose, |stream| self.push(stream)))
+        Ok(self.position.load(&self.steady, pose, |stream| self.push(stream)))
     }
 
     /// In the current of the time; the body's own motion is in the damping of the body.
     fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
-        let stream = self.steady.streams_at_time(at.time).velocity(Medium::Water, at.pose.point(self.place.at).z);
-        let load = self.place.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
+        let stream = self.steady.streams_at_time(at.time).velocity(Medium::Water, at.pose.point(self.position.at).z);
+        let load = self.position.load_in(&self.steady, at.pose, stream, |stream| self.push(stream));
         Ok(DynamicLoad::from(load))
     }
 }

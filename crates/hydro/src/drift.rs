@@ -135,8 +135,8 @@ impl BodyLoad for DriftLoad {
         let turned = nalgebra::RowVector3::new(-travel.y, travel.x, 0.0) / square;
         let by_velocity: Matrix6x3<f64> = slope * turned;
         // a stream of speed one: only its direction counts
-        let place = LoadPlace { at: self.at, medium: Medium::Water, shared: false };
+        let position = LoadPlace { at: self.at, medium: Medium::Water, shared: false };
         let push = StreamWrench { wrench: value, by_velocity };
-        Ok(place.load_in(&self.steady, pose, (self.toward, Vector3::zeros()), |_| push))
+        Ok(position.load_in(&self.steady, pose, (self.toward, Vector3::zeros()), |_| push))
     }
 }

@@ -57,11 +57,11 @@ pub struct GrowthLoads {
 pub fn build_growth_loads(model: &Model, body: &Body) -> Result<GrowthLoads, ClassError> {
     let mut made = GrowthLoads::default();
     let Some(growth) = Growth::from_environment(model, &model.environment)? else { return Ok(made) };
-    let (pose, around) = (Pose::from_place(&body.place), model.surroundings());
+    let (pose, around) = (Pose::from_place(&body.position), model.surroundings());
     let mut all = Vec::new();
     for part in model.parts_of(body) {
         for piece in part.pieces.iter().filter(|p| p.permeability >= 0.0 && p.compartment.is_none()) {
-            if let Shape::Tube { ends, diameter } = piece.shape.with_displacement(&part.place) {
+            if let Shape::Tube { ends, diameter } = piece.shape.with_displacement(&part.position) {
                 all.extend(rings(&growth, &pose, ends.map(Vector3::from), diameter));
             }
         }

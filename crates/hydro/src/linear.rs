@@ -109,8 +109,8 @@ mod tests {
     #[test]
     fn stiffness_matches_finite_difference_of_force() {
         let linear = linear(2e5);
-        for place in [[3.0, -2.0, -1.0, 0.2, -0.3, 1.1], [0.0, 0.0, 5.0, -0.8, 0.9, -2.0]] {
-            let pose = Pose::from_place(&Place::new(place));
+        for position in [[3.0, -2.0, -1.0, 0.2, -0.3, 1.1], [0.0, 0.0, 5.0, -0.8, 0.9, -2.0]] {
+            let pose = Pose::from_place(&Place::new(position));
             let load = linear.mean_load(&pose).unwrap();
             for n in 0..6 {
                 let step = if n < 3 { 1e-4 } else { 1e-6 };

@@ -104,7 +104,7 @@ pub fn build_piece_load(
     if !media.iter().any(acts) {
         return Ok(Vec::new());
     }
-    let surface = match (growth, piece.shape.with_displacement(&part.place)) {
+    let surface = match (growth, piece.shape.with_displacement(&part.position)) {
         (Some((growth, pose)), Shape::Tube { ends, diameter }) => {
             let tube = TubeHull { ends: ends.map(Vector3::from), diameter };
             tube.with_diameters(&growth_loads::stations(growth, pose, tube.ends, diameter), TUBE_PRISM_SIDES)
@@ -112,7 +112,7 @@ pub fn build_piece_load(
         _ => skin(part, piece)?,
     };
     let Some(surface) = surface else { return Ok(Vec::new()) };
-    let axes = *part.place.rotation().matrix();
+    let axes = *part.position.rotation().matrix();
     let skin = Arc::new(Skin::new(&surface, &axes));
     let made = media.into_iter().filter(acts);
     Ok(made.map(|(medium, cs)| PieceLoad::new(Arc::clone(&skin), steady, medium, axes, cs)).collect())

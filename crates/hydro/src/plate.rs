@@ -10,7 +10,7 @@ use windlass_base::pose::Six;
 #[derive(Debug)]
 pub struct PlateLoad {
     steady: Arc<Steady>,
-    place: LoadPlace,
+    position: LoadPlace,
     /// Area times drag coefficient (m2).
     area: f64,
     normal: Vector3<f64>,
@@ -18,18 +18,18 @@ pub struct PlateLoad {
 
 impl PlateLoad {
     /// A plate of an area times drag coefficient (m2) and a unit normal in the body; its sense does not matter.
-    pub fn new(steady: Arc<Steady>, place: LoadPlace, area: f64, normal: Vector3<f64>) -> Self {
-        PlateLoad { steady, place, area, normal }
+    pub fn new(steady: Arc<Steady>, position: LoadPlace, area: f64, normal: Vector3<f64>) -> Self {
+        PlateLoad { steady, position, area, normal }
     }
 }
 
 impl StreamLoad for PlateLoad {
     fn placement(&self) -> (&LoadPlace, &Steady) {
-        (&self.place, &self.steady)
+        (&self.position, &self.steady)
     }
 
     fn push(&self, stream: Vector3<f64>) -> StreamWrench {
-        let rho = self.steady.density(self.place.medium);
+        let rho = self.steady.density(self.position.medium);
         let across = stream.dot(&self.normal);
         let force = self.normal * (0.5 * rho * self.area * across.abs() * across);
         let mut by_velocity = Matrix6x3::zeros();

@@ -58,7 +58,7 @@ pub struct WavePressure {
 #[derive(Clone, Copy, Debug)]
 struct Node {
     /// Its place in the body (m).
-    place: Vector3<f64>,
+    position: Vector3<f64>,
     /// Force and moment about the body's origin of a unit pressure at it on all panels whose edge it halves, in body axes (m2, m3); zero for a
     /// corner.
     wrench: Six,
@@ -103,7 +103,7 @@ pub fn build_wave_pressure(
             surfaces.push((factor, surface));
         }
     }
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let slow = SlowWrench::new(dividing_period(model, Some(sea)));
     let made = |surfaces: Vec<_>| WavePressure { slow, ..from_surfaces(sea, surfaces.into_iter(), &pose, 1.0) };
     Ok((!surfaces.is_empty()).then(|| made(surfaces)))
@@ -130,7 +130,7 @@ fn from_surfaces(
     let near =
         SURFACE_BAND_DEVIATIONS * (0.5 * sea.components.iter().map(|c| c.amplitude * c.amplitude).sum::<f64>()).sqrt();
     let at_surface = EDGE_AT_SURFACE / mean_number(sea, 0.0) / finer;
-    let height = |place: &Vector3<f64>| pose.origin.z + (pose.axes * place).z - sea.level;
+    let height = |position: &Vector3<f64>| pose.origin.z + (pose.axes * position).z - sea.level;
     // a body that is raised by the waves takes its panels with it
     let longest_at = |height: f64| EDGE / mean_number(sea, (height + near).min(0.0)) / finer;
     let limit = |corners: &[Vector3<f64>; 3]| {
@@ -145,21 +145,21 @@ fn from_surfaces(
         let lowest = surface.vertices.iter().map(height).fold(f64::INFINITY, f64::min);
         let made = Panelling::new(&surface, longest_at(lowest), MAX_PANELS_A_PIECE).refine(&limit, MAX_PANELS_A_PIECE);
         let first = nodes.len() as u32;
-        nodes.extend(made.nodes.into_iter().map(|place| Node { place, wrench: Six::zeros(), counts: false }));
+        nodes.extend(made.nodes.into_iter().map(|position| Node { position, wrench: Six::zeros(), counts: false }));
         panels.extend(made.panels.into_iter().map(|p| ScaledPanel { panel: p.map(|n| n + first), factor }));
     }
-    let place = |nodes: &[Node], n: u32| nodes[n as usize].place;
+    let position = |nodes: &[Node], n: u32| nodes[n as usize].position;
     for ScaledPanel { panel: [a, b, c, middles @ ..], factor } in &panels {
-        let [a, b, c] = [a, b, c].map(|n| place(&nodes, *n));
+        let [a, b, c] = [a, b, c].map(|n| position(&nodes, *n));
         // a third of the area against the normal
         let third = (b - a).cross(&(c - a)) * (-factor / 6.0);
         for middle in middles {
             let node = &mut nodes[*middle as usize];
-            node.wrench += about_origin(&node.place, &third);
+            node.wrench += about_origin(&node.position, &third);
             node.counts = true;
         }
     }
-    let corners = nodes.iter().map(|n| (n.place, n.place));
+    let corners = nodes.iter().map(|n| (n.position, n.position));
     let extent = corners.reduce(|(low, high), (p, q)| (low.inf(&p), high.sup(&q))).map(|(low, high)| high - low);
     let grid = extent.and_then(|extent| PressureGrid::new(sea, [extent.norm(), extent.z], nodes.len()));
     let weight = sea.density * sea.gravity;
@@ -195,7 +195,7 @@ const QUADRATIC_MOMENTS: [[f64; 3]; 6] = {
 /// A corner of a part of a panel: its barycentric coordinates, and what a [`NodePressure`] says of it.
 #[derive(Clone, Copy, Debug)]
 struct PanelCorner {
-    place: [f64; 3],
+    position: [f64; 3],
     over: f64,
     extra: f64,
     kink: f64,
@@ -226,7 +226,7 @@ fn divide([a, b, c]: &[PanelCorner; 3], value: impl Fn(&PanelCorner) -> f64) -> 
         let share = value(p) / (value(p) - value(q));
         let between = |a: f64, b: f64| a + (b - a) * share;
         PanelCorner {
-            place: std::array::from_fn(|i| between(p.place[i], q.place[i])),
+            position: std::array::from_fn(|i| between(p.position[i], q.position[i])),
             over: between(p.over, q.over),
             extra: between(p.extra, q.extra),
             kink: between(p.kink, q.kink),
@@ -244,7 +244,7 @@ impl PressureMoments {
     #[inline(always)]
     fn add_linear(&mut self, corners: &[PanelCorner; 3], counts: f64, [a, b, c]: [f64; 3]) {
         let twelfth = share(corners) * counts / 12.0;
-        let [u, v, w] = corners.each_ref().map(|corner| &corner.place);
+        let [u, v, w] = corners.each_ref().map(|corner| &corner.position);
         for (i, sum) in self.0.iter_mut().enumerate() {
             *sum += twelfth * ((a + b + c) * (u[i] + v[i] + w[i]) + a * u[i] + b * v[i] + c * w[i]);
         }
@@ -255,11 +255,11 @@ impl PressureMoments {
     #[inline(always)]
     fn add_quadratic(&mut self, corners: &[PanelCorner; 3], counts: f64, values: &[f64; 6]) {
         let third = share(corners) * counts / 3.0;
-        let [a, b, c] = corners.each_ref().map(|corner| &corner.place);
+        let [a, b, c] = corners.each_ref().map(|corner| &corner.position);
         for (p, q) in [(a, b), (b, c), (c, a)] {
-            let place = std::array::from_fn(|i| 0.5 * (p[i] + q[i]));
-            let part = third * quadratic(values, &place);
-            for (sum, share) in self.0.iter_mut().zip(place) {
+            let position = std::array::from_fn(|i| 0.5 * (p[i] + q[i]));
+            let part = third * quadratic(values, &position);
+            for (sum, share) in self.0.iter_mut().zip(position) {
                 *sum += part * share;
             }
         }
@@ -332,7 +332,7 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
     for quarter in QUARTERS {
         let corners = quarter.map(|n| {
             let NodePressure { over, extra, kink, .. } = near[n];
-            PanelCorner { place: NODES[n], over, extra, kink }
+            PanelCorner { position: NODES[n], over, extra, kink }
         });
         if corners.iter().all(|c| c.over > 0.0) {
             continue;
@@ -347,7 +347,7 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
             _ => add_stretched(&mut sum, &corners, ends_at_surface),
         }
     }
-    let corner = |n: usize| PanelCorner { place: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
+    let corner = |n: usize| PanelCorner { position: NODES[n], over: near[n].height, extra: 0.0, kink: 0.0 };
     below_surface(&[corner(0), corner(1), corner(2)], weight, |part, counts| {
         sum.add_linear(part, counts, part.each_ref().map(|c| c.over));
     });
@@ -361,7 +361,7 @@ fn near_surface(near: &[NodePressure; 6], weight: f64) -> Six {
 
 /// The area of a triangle in barycentric coordinates, as a share of the panel's.
 fn share([a, b, c]: &[PanelCorner; 3]) -> f64 {
-    let edge = |p: &PanelCorner, q: &PanelCorner| [q.place[0] - p.place[0], q.place[1] - p.place[1]];
+    let edge = |p: &PanelCorner, q: &PanelCorner| [q.position[0] - p.position[0], q.position[1] - p.position[1]];
     let ([x, y], [u, v]) = (edge(a, b), edge(a, c));
     (x * v - y * u).abs()
 }
@@ -451,7 +451,7 @@ impl WavePressure {
     /// side, whose sums are added in their order: the digits do not depend on the number of threads.
     pub fn force_at(&self, time: f64, pose: &Pose) -> Six {
         let [x, y, z] = [0, 1, 2].map(|axis| pose.axes.column(axis).into_owned());
-        let arm = |Node { place: p, .. }: &Node| x * p.x + y * p.y + z * p.z;
+        let arm = |Node { position: p, .. }: &Node| x * p.x + y * p.y + z * p.z;
         let arms: Vec<Vector3<f64>> = self.nodes.iter().map(arm).collect();
         let origin = pose.origin;
         let grid = self.grid.as_ref().map(|grid| grid.fill(&self.sea, time, origin, &arms));
@@ -477,7 +477,7 @@ impl WavePressure {
         let (force, moment) = (turned(0), turned(3));
         let whole = Six::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
         // the other panels: what their deep middles gave is replaced
-        let (mut asked, mut places) = (Vec::new(), vec![u32::MAX; arms.len()]);
+        let (mut asked, mut positions) = (Vec::new(), vec![u32::MAX; arms.len()]);
         let mut at_surface: Vec<([u32; 6], &ScaledPanel)> = Vec::new();
         for pressed in &self.panels {
             let all = |how: NodeSubmergence| pressed.panel.iter().all(|n| lies.get(*n as usize) == Some(&how));
@@ -485,13 +485,13 @@ impl WavePressure {
             if all(NodeSubmergence::Deep) || all(NodeSubmergence::Dry) {
                 continue;
             }
-            let own = pressed.panel.map(|n| match places.get_mut(n as usize) {
-                Some(place) if *place == u32::MAX => {
-                    *place = asked.len() as u32;
+            let own = pressed.panel.map(|n| match positions.get_mut(n as usize) {
+                Some(position) if *position == u32::MAX => {
+                    *position = asked.len() as u32;
                     asked.push(n as usize);
-                    *place
+                    *position
                 }
-                Some(place) => *place,
+                Some(position) => *position,
                 None => u32::MAX,
             });
             at_surface.push((own, pressed));

@@ -52,7 +52,7 @@ pub(super) fn build<'a>(
     pieces: impl Iterator<Item = &'a Piece>,
     factor: f64,
 ) -> Result<Option<RollDamping>, ClassError> {
-    if part.place.turn != [0.0; 3] {
+    if part.position.turn != [0.0; 3] {
         return Err(ClassError::new(format!(
             "the eddy damping of roll of {} needs a part that is not turned in its body",
             part.name
@@ -61,9 +61,9 @@ pub(super) fn build<'a>(
     }
     let none = [Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY)];
     let hull = pieces.filter(|p| p.permeability > 0.0 && p.compartment.is_none());
-    let boxes = hull.filter_map(|p| p.shape.with_displacement(&part.place).extent());
+    let boxes = hull.filter_map(|p| p.shape.with_displacement(&part.position).extent());
     let [low, high] = boxes.fold(none, |[low, high], [a, b]| [low.inf(&Vector3::from(a)), high.sup(&Vector3::from(b))]);
-    let surface = model.surroundings().tide - body.place.shift[2];
+    let surface = model.surroundings().tide - body.position.shift[2];
     let draft = surface - low.z;
     let size = high - low;
     let is_wet = draft > 0.0 && size.iter().all(|x| x.is_finite() && *x > 0.0);

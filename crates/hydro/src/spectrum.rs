@@ -57,17 +57,17 @@ pub fn build_spectrum(
     if is_regular(sea) {
         return Ok(None);
     }
-    for (value, dim, place, what) in
+    for (value, dim, position, what) in
         [(sea.height, Dim::Length, 2, "a significant height"), (sea.period, Dim::Time, 3, "a period")]
     {
         if !(value > 0.0 && value.is_finite()) {
             let text = format!("a sea of {what} of {{}} has no energy");
             return Err(ClassError::with_values(text, &[(value, dim)])
-                .with_span(sea.place(place))
+                .with_span(sea.position(position))
                 .help("leave out the sea for calm water"));
         }
     }
-    let at_name = |error: ClassError| error.clone().with_span(error.span.unwrap_or(sea.place(0)));
+    let at_name = |error: ClassError| error.clone().with_span(error.span.unwrap_or(sea.position(0)));
     let whole = whole(model, env, sea).map_err(at_name)?;
     let m0 = whole.moment(0);
     Ok(Some(match limits {

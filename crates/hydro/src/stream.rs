@@ -37,13 +37,13 @@ impl<T: StreamLoad> BodyLoad for T {
     }
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let (place, steady) = self.placement();
-        Ok(place.load(steady, pose, |stream| self.push(stream)))
+        let (position, steady) = self.placement();
+        Ok(position.load(steady, pose, |stream| self.push(stream)))
     }
 
     fn dynamic_load(&self, at: &BodyStep, _state: &[f64]) -> Result<DynamicLoad, ClassError> {
-        let (place, steady) = self.placement();
-        Ok(place.dynamic_load(steady, at, |stream| self.push(stream)))
+        let (position, steady) = self.placement();
+        Ok(position.dynamic_load(steady, at, |stream| self.push(stream)))
     }
 }
 

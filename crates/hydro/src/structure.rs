@@ -79,16 +79,16 @@ pub struct BeamPlace {
 /// Nodes at one place; segments that are longer than the beam, or all shorter.
 pub fn build_beam(
     sections: &[MemberSection],
-    place: &BeamPlace,
+    position: &BeamPlace,
     coefficients: &MemberCoefficients,
     water_weight: f64,
 ) -> Result<StructuralElement, ClassError> {
-    let [first, second] = place.ends;
+    let [first, second] = position.ends;
     let length = (second - first).norm();
     let Some(axis) = (second - first).try_normalize(1e-9) else {
         return Err(ClassError::new("its two nodes are at one place"));
     };
-    let [width, depth] = local_directions(&axis, place);
+    let [width, depth] = local_directions(&axis, position);
     let mut made = StructuralElement::default();
     let mut from = 0.0;
     for (section, long) in sections.iter().zip(segment_lengths(sections, length)?) {
@@ -97,22 +97,23 @@ pub fn build_beam(
         for (share, weight) in gauss_weights(section.weight) {
             made.weights.push(((start + (end - start) * share).into(), weight * long));
         }
-        let along = MemberPart { section, ends: [start, end], axis, width, depth, is_flooded: place.is_flooded };
+        let along = MemberPart { section, ends: [start, end], axis, width, depth, is_flooded: position.is_flooded };
         made.pieces.extend(along.pieces(coefficients, water_weight));
     }
     Ok(made)
 }
 
 /// Unit vectors along local y and z of a beam.
-fn local_directions(axis: &Vector3<f64>, place: &BeamPlace) -> [Vector3<f64>; 2] {
-    let [primary, secondary] = place.directions.map(|d| Vector3::from(d).try_normalize(0.0).unwrap_or_else(Vector3::z));
+fn local_directions(axis: &Vector3<f64>, position: &BeamPlace) -> [Vector3<f64>; 2] {
+    let [primary, secondary] =
+        position.directions.map(|d| Vector3::from(d).try_normalize(0.0).unwrap_or_else(Vector3::z));
     // where both are along the beam any direction across it is as good
     let mut other = Vector3::zeros();
     other[axis.iamin()] = 1.0;
     let across = [primary, secondary, other].into_iter().find(|d| d.cross(axis).norm() > 1e-6).unwrap_or(other);
     let up = (across - axis * axis.dot(&across)).try_normalize(0.0).unwrap_or(other);
     let side = up.cross(axis);
-    let (sin, cos) = place.turn.sin_cos();
+    let (sin, cos) = position.turn.sin_cos();
     [side * cos + up * sin, up * cos - side * sin]
 }
 

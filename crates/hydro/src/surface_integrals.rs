@@ -161,11 +161,11 @@ impl Skin {
     /// What a stream finds of it in a pose.
     pub fn surface_integrals<const D: usize>(&self, pose: &Pose, strips: &Strips<D>) -> SurfaceIntegrals<D> {
         let height = pose.origin.z - strips.level;
-        let place = |p: &Vector3<f64>| {
+        let position = |p: &Vector3<f64>| {
             let r = pose.axes * p;
             (r, strips.sense * (r.z + height))
         };
-        let placed: Vec<(Vector3<f64>, f64)> = self.vertices.iter().map(place).collect();
+        let placed: Vec<(Vector3<f64>, f64)> = self.vertices.iter().map(position).collect();
         let mut found = SurfaceIntegrals { along: [PressureIntegral::zero(); 3], plane: Waterplane::default() };
         for facet in &self.facets {
             let [Some(a), Some(b), Some(c)] = facet.corners.map(|n| placed.get(n as usize).copied()) else { continue };

@@ -311,7 +311,7 @@ impl Tank {
         let at = |name: &String| {
             let point = model.points.get(&Model::key(name))?;
             let part = model.parts.get(&Model::key(&point.part))?;
-            Some(part.place.apply(point.at))
+            Some(part.position.apply(point.at))
         };
         let given = compartment.sounding_tube.as_ref().and_then(|[top, bottom]| Some([at(top)?, at(bottom)?]));
         given.unwrap_or_else(|| {
@@ -385,7 +385,7 @@ pub fn build_tank_loads(model: &Model, body: &Body) -> Result<Vec<Box<dyn BodyLo
 /// # Errors
 /// As `build_tank_loads`.
 pub fn contents_mass(model: &Model, body: &Body) -> Result<Mass, ClassError> {
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let holds = |c: &&Compartment| c.contents.is_flooded || c.contents.fraction > 0.0;
     compartments_of(model, body)
         .filter(holds)

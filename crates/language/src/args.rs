@@ -99,9 +99,10 @@ fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Out
     let fixed = spec.data.len() - spec.repeat.min(spec.data.len());
     // what was passed over before a word has its place too: the last of a span is the word's
     let key = |span: Span| (span.source, span.start, span.end);
-    let places: BTreeMap<_, usize> = data.iter().enumerate().map(|(index, value)| (key(value.span), index)).collect();
+    let positions: BTreeMap<_, usize> =
+        data.iter().enumerate().map(|(index, value)| (key(value.span), index)).collect();
     let kind_of = |word: &Word| {
-        let index = *places.get(&key(word.span))?;
+        let index = *positions.get(&key(word.span))?;
         match spec.data.get(index) {
             Some(value) => Some((value, value.is_required())),
             None if spec.repeat > 0 => Some((spec.data.get(fixed + (index - fixed) % spec.repeat)?, false)),

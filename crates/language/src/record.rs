@@ -94,12 +94,12 @@ impl Record {
 
     /// Where a byte range of the text stands in the source. A range inside replaced text is the whole replaced place.
     pub fn span(&self, range: Range<usize>) -> Span {
-        let start = self.place(range.start, false);
-        let end = self.place(range.end.max(range.start + 1) - 1, true);
+        let start = self.position(range.start, false);
+        let end = self.position(range.end.max(range.start + 1) - 1, true);
         start.join(end)
     }
 
-    fn place(&self, at: usize, last: bool) -> Span {
+    fn position(&self, at: usize, last: bool) -> Span {
         let index = self.pieces.partition_point(|p| p.at <= at).saturating_sub(1);
         let Some(piece) = self.pieces.get(index) else { return Span::default() };
         if !piece.verbatim {
@@ -204,8 +204,8 @@ mod tests {
         assert_eq!(&text[next..], "END\n");
         let words = record.words();
         assert_eq!(words.len(), 7);
-        assert_eq!(sources.place(words[3].span), "a.cif:2:3");
-        assert_eq!(sources.place(words[6].span), "a.cif:3:8");
+        assert_eq!(sources.location(words[3].span), "a.cif:2:3");
+        assert_eq!(sources.location(words[6].span), "a.cif:3:8");
     }
 
     #[test]
@@ -217,7 +217,7 @@ mod tests {
         assert_eq!((&text[next..], open), ("END\n", false));
         let words = record.words();
         assert_eq!(words.len(), 7, "{}", record.text());
-        assert_eq!(sources.place(words[6].span), "a.cif:4:8");
+        assert_eq!(sources.location(words[6].span), "a.cif:4:8");
         // a comment that begins a record is a record of its own, and a continued record does not end in one
         assert_eq!(read("$ x \\\nEND\n", id, 0).1, 6);
         assert!(read("A \\\n$ x", id, 0).2);
@@ -233,7 +233,7 @@ mod tests {
         other.push_replaced("xx ", Span::new(id, 0, 3));
         other.push_range(&record, 4..7);
         assert_eq!(other.text(), "xx DEF");
-        assert_eq!(sources.place(other.span(3..6)), "a:1:5");
+        assert_eq!(sources.location(other.span(3..6)), "a:1:5");
         assert_eq!(other.span(0..2), Span::new(id, 0, 3));
     }
 }

@@ -17,13 +17,13 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, colour: bool) -> Strin
         Severity::Error => Level::ERROR,
         Severity::Fatal => Level::ERROR.with_name("fatal error"),
     };
-    let places = diagnostic
+    let positions = diagnostic
         .span
         .map(|span| (span, AnnotationKind::Primary, diagnostic.label.as_str()))
         .into_iter()
         .chain(diagnostic.other.as_ref().map(|(span, text)| (*span, AnnotationKind::Context, text.as_str())));
     let mut excerpts: Vec<(Excerpt<'_>, Vec<Annotation<'_>>)> = Vec::new();
-    for (span, kind, text) in places {
+    for (span, kind, text) in positions {
         let Some(source) = sources.get(span.source) else { continue };
         let excerpt = Excerpt::new(source, span, excerpts.len());
         let mut annotation = kind.span(excerpt.range.clone());
@@ -98,7 +98,7 @@ impl<'a> Excerpt<'a> {
         let mark = self.mark.as_deref().unwrap_or_default();
         let Some((head, tail)) = text.split_once(mark) else { return text.to_string() };
         let tail = tail.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
-        format!("{head}{}{tail}", printable(&sources.place(self.span)))
+        format!("{head}{}{tail}", printable(&sources.location(self.span)))
     }
 
     fn new(source: &'a Source, span: Span, index: usize) -> Self {

@@ -107,7 +107,7 @@ impl Sources {
     }
 
     /// `file:line:column` of a span.
-    pub fn place(&self, span: Span) -> String {
+    pub fn location(&self, span: Span) -> String {
         match (self.get(span.source), self.position(span)) {
             (Some(source), Some((line, column))) => format!("{}:{line}:{column}", source.name),
             _ => "unknown place".to_string(),
@@ -138,6 +138,6 @@ mod tests {
         assert_eq!(source.bad_byte(4..6), Some((4, 0)));
         assert_eq!(source.bad_byte(6..9), Some((8, 0xff)));
         assert_eq!(source.bad_byte(6..8), None);
-        assert_eq!(sources.place(Span::new(id, 8, 9)), "a:3:2");
+        assert_eq!(sources.location(Span::new(id, 8, 9)), "a:3:2");
     }
 }

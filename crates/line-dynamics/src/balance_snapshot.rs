@@ -19,8 +19,8 @@ impl RodEnergyBalance {
             .chain([e.kinetic, e.elastic, e.gravity, e.bottom, e.supports])
             .chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z]));
         let mut made = [0.0; RodEnergyBalance::PACKED_LEN];
-        for (place, value) in made.iter_mut().zip(all) {
-            *place = value;
+        for (position, value) in made.iter_mut().zip(all) {
+            *position = value;
         }
         made
     }

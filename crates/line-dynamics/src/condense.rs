@@ -152,10 +152,10 @@ impl EndCondensation {
     pub fn reset(&mut self, work: &mut Workspace) {
         (self.ready, self.condensed_sides) = ([false; 2], None);
         work.store_end_rows();
-        let place = [0, work.residuals().len() - work.stride()];
-        for (columns, place) in self.together.iter_mut().zip(place) {
+        let first_rows = [0, work.residuals().len() - work.stride()];
+        for (columns, first_row) in self.together.iter_mut().zip(first_rows) {
             for (axis, column) in columns.iter_mut().enumerate() {
-                work.column(place + axis, column);
+                work.column(first_row + axis, column);
             }
         }
     }
@@ -173,9 +173,9 @@ impl EndCondensation {
     ) {
         let stride = work.stride();
         let size = work.residuals().len();
-        let place = [0, size - stride];
+        let first_rows = [0, size - stride];
         let known = trial.ends.map(|e| e.motion.is_some());
-        let end_of = |row: usize| (0..2).find(|s| known[*s] && (place[*s]..place[*s] + 3).contains(&row));
+        let end_of = |row: usize| (0..2).find(|s| known[*s] && (first_rows[*s]..first_rows[*s] + 3).contains(&row));
         // where the edge beside an end and its turn have their unknowns, and with what sign
         let edge = |side: usize| {
             let first = if side == 0 { 0 } else { size - 2 * stride };
@@ -197,7 +197,7 @@ impl EndCondensation {
             }
         }
         // the moment feels the place of a held end itself
-        let own = place.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
+        let own = first_rows.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
         // rows beside end A, where nothing is asked or answered beyond them
         let beside = 2 * stride + MAX_BANDWIDTH / 2;
         let wanted = if sides[1] { size } else { beside };
@@ -209,7 +209,7 @@ impl EndCondensation {
                     *c -= y * entry;
                 }
             }
-            Some(end) if end == side => column[row - place[side]] -= entry,
+            Some(end) if end == side => column[row - first_rows[side]] -= entry,
             Some(_) => {}
         };
         for other in (0..2).filter(|other| sides[*other]) {
@@ -217,7 +217,8 @@ impl EndCondensation {
                 for axis in 0..3 {
                     let mut column = [0.0; N];
                     for (i, entry) in self.columns[kind][other][axis].iter().enumerate() {
-                        let row = (place[other] + axis + i).checked_sub(MAX_BANDWIDTH / 2).filter(|row| *row < size);
+                        let row =
+                            (first_rows[other] + axis + i).checked_sub(MAX_BANDWIDTH / 2).filter(|row| *row < size);
                         if let Some(row) = row.filter(|_| *entry != 0.0) {
                             add(&mut column, row, *entry);
                         }

@@ -69,9 +69,9 @@ fn follow_path(
         let world = LineEnvironment { gravity: outer.gravity * loaded, forces: &forces, ..*outer };
         let mut pseudo = pseudo.in_world(&world);
         let between = [0, 1].map(|side| {
-            let place = |motion: RodEndMotion| from[side] + (motion.position - from[side]) * to;
+            let position = |motion: RodEndMotion| from[side] + (motion.position - from[side]) * to;
             RodEnd {
-                motion: ends[side].motion.map(|m| if to < 1.0 { RodEndMotion::at_rest(place(m)) } else { m }),
+                motion: ends[side].motion.map(|m| if to < 1.0 { RodEndMotion::at_rest(position(m)) } else { m }),
                 ..ends[side]
             }
         });

@@ -75,10 +75,10 @@ impl FluidField for LocalFluid<'_> {
     }
 
     fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
-        let mut places = self.room.borrow_mut();
-        places.clear();
-        places.extend(positions.iter().map(|x| x + self.origin));
-        self.fluid.sample_into(&places, time, out);
+        let mut global = self.room.borrow_mut();
+        global.clear();
+        global.extend(positions.iter().map(|x| x + self.origin));
+        self.fluid.sample_into(&global, time, out);
         for fluid in out {
             fluid.surface -= self.origin.z;
         }

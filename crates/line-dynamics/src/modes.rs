@@ -87,10 +87,10 @@ pub(super) fn find_modes(
     let mut vectors: Vec<Vec<f64>> = (0..space)
         .map(|j| {
             let half_waves = (j / 3 + 1) as f64;
-            let place = |i: usize| (i as f64 + 0.37) / (last as f64 + 0.74) * std::f64::consts::PI * half_waves;
+            let position = |i: usize| (i as f64 + 0.37) / (last as f64 + 0.74) * std::f64::consts::PI * half_waves;
             let at = |i: usize| {
                 let (node, axis) = (i / stride, i % stride);
-                if axis == j % 3 && free(node) { place(node).sin() + 0.1 * place(node).cos() } else { 0.0 }
+                if axis == j % 3 && free(node) { position(node).sin() + 0.1 * position(node).cos() } else { 0.0 }
             };
             (0..size).map(at).collect()
         })

@@ -93,6 +93,9 @@ impl PseudoTransient<'_> {
     /// Pseudo-transient solution from the trial to rest. `done` counts the iterations so far, `most_iterations` bounds them.
     ///
     /// With friction the rod is not softened: the start is near its final shape.
+    ///
+    /// # Errors
+    /// Rest that is not reached within `most_iterations`, or an interruption.
     pub fn solve(&mut self, done: &mut usize, most_iterations: usize) -> Result<(), RodError> {
         let (rod, world) = (self.rod, self.world);
         let last = rod.elements.len();
@@ -289,7 +292,7 @@ impl PseudoTransient<'_> {
     fn residual_tolerance(&self) -> f64 {
         let (rod, world) = (self.rod, self.world);
         let weight = total_weight(rod, world);
-        let place = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
+        let extent = self.trial.x.iter().fold(0.0, |most: f64, x| most.max(x.amax()));
         let mut tolerance = RESIDUAL_TOLERANCE * weight;
         for (i, (element, x)) in rod.elements.iter().zip(self.trial.x.windows(2)).enumerate() {
             tolerance = tolerance.max(RESIDUAL_TOLERANCE * element_tension(rod, world, self.trial, i).abs());
@@ -297,7 +300,7 @@ impl PseudoTransient<'_> {
             let strain = (x[1] - x[0]).norm() / element.rest - 1.0;
             let slope = rod.segments[element.segment].axial.evaluate(strain).1;
             let stiffness = slope / element.rest + 10.0 * element.bending / element.rest.powi(3);
-            tolerance = tolerance.max(32.0 * f64::EPSILON * place * stiffness);
+            tolerance = tolerance.max(32.0 * f64::EPSILON * extent * stiffness);
         }
         tolerance
     }

@@ -228,8 +228,8 @@ impl Rod {
     fn sample_fluid_near_ends(&self, state: &RodState, world: &LineEnvironment) -> [[FluidState; 2]; 2] {
         let last = self.elements.len();
         let mut found = [UniformFluid::vacuum().0; 4];
-        let places = [0, 1, last, last - 1].map(|node| state.position[node]);
-        world.fluid.sample_into(&places, state.time, &mut found);
+        let positions = [0, 1, last, last - 1].map(|node| state.position[node]);
+        world.fluid.sample_into(&positions, state.time, &mut found);
         let [a, b, c, d] = found;
         [[a, b], [c, d]]
     }
@@ -282,11 +282,11 @@ impl Rod {
     ) -> f64 {
         let (node, other) = (element + side, element + 1 - side);
         let element = &self.elements[element];
-        let at = |node: usize, place: usize| HalfNode {
+        let at = |node: usize, position: usize| HalfNode {
             position: &state.position[node],
             velocity: &state.velocity[node],
             acceleration: &state.acceleration[node],
-            fluid: beside[place],
+            fluid: beside[position],
         };
         let weight = Vector3::z() * world.gravity;
         let moved = (state.acceleration[node] + weight) * element.mass

@@ -71,17 +71,17 @@ impl RodState {
         let (nodes, rest) = rest.split_at_mut(NUMBERS_PER_NODE * self.position.len());
         let motions = self.position.iter().zip(&self.velocity).zip(&self.acceleration).zip(&self.averaged);
         let (nodes, _) = nodes.as_chunks_mut::<NUMBERS_PER_NODE>();
-        for (place, (((((x, v), a), averaged), s), bedding)) in
+        for (position, (((((x, v), a), averaged), s), bedding)) in
             nodes.iter_mut().zip(motions.zip(&self.stuck).zip(&self.bedding))
         {
-            *place = [
+            *position = [
                 x.x, x.y, x.z, v.x, v.y, v.z, a.x, a.y, a.z, averaged.x, averaged.y, averaged.z, s.x, s.y, s.z,
                 *bedding,
             ];
         }
         let (directors, yielded) = rest.split_at_mut(3 * self.director.len());
-        for (place, director) in directors.chunks_exact_mut(3).zip(&self.director) {
-            place.copy_from_slice(director.as_slice());
+        for (numbers, director) in directors.chunks_exact_mut(3).zip(&self.director) {
+            numbers.copy_from_slice(director.as_slice());
         }
         yielded.copy_from_slice(&self.yielded);
         Some(count)
@@ -122,8 +122,8 @@ impl RodState {
         // without a way out of the loop it goes many at a time
         let whole = from.iter().fold(true, |whole, v| whole & v.is_finite());
         if !whole {
-            let place = from.iter().position(|v| !v.is_finite()).unwrap_or(0);
-            return Err(refuse(format!("number {} of its state is {}", place + 1, from[place])));
+            let position = from.iter().position(|v| !v.is_finite()).unwrap_or(0);
+            return Err(refuse(format!("number {} of its state is {}", position + 1, from[position])));
         }
         let (nodes, elements) = from[HEADER_LEN..].split_at(NUMBERS_PER_NODE * rod.nodes());
         let (directors, yielded) = elements.split_at(if rod.twists() { 3 * rod.elements.len() } else { 0 });

@@ -47,6 +47,9 @@ impl<'a> RestSearch<'a> {
 
     /// Pseudo-transient solutions: with friction from the start, which leaves slack parts where they lie; or, from a start that is far
     /// from rest, first without friction.
+    ///
+    /// # Errors
+    /// Rest that is not reached within the iterations allowed, or an interruption.
     pub fn find_rest(&mut self, state: &mut RodState) -> Result<RodEndForces, RodError> {
         let (rod, world, ends) = (self.pseudo.rod, self.pseudo.world, self.ends);
         if let Some(made) = self.find_rest_with_friction(state)? {
@@ -96,6 +99,9 @@ impl<'a> RestSearch<'a> {
     }
 
     /// Newton's iteration from where it is, or pseudo-steps with friction from there; none if they do not come to rest soon.
+    ///
+    /// # Errors
+    /// An interruption, or numbers that are not finite.
     pub fn find_rest_with_friction(&mut self, state: &mut RodState) -> Result<Option<RodEndForces>, RodError> {
         let (rod, world, ends) = (self.pseudo.rod, self.pseudo.world, self.ends);
         self.pseudo.set_trial_at_rest(state, &ends);

@@ -234,12 +234,12 @@ pub(super) fn swing_with_end(trial: &mut Trial, rod: &Rod, state: &RodState, wor
     let foot = (0..=last).rev().find(|i| over(&was[at(*i)]) < 0.0).unwrap_or(0);
     let rotated = |i: usize| base + turn * (was[at(i)] - was[root]);
     for i in 1..last {
-        let mut place = rotated(i);
+        let mut position = rotated(i);
         if i <= foot {
-            place.z += over(&was[at(i)]) - over(&place);
+            position.z += over(&was[at(i)]) - over(&position);
         }
-        trial.laid_at[at(i)] = place - turn * (was[at(i)] - trial.laid_at[at(i)]);
-        x[at(i)] = place;
+        trial.laid_at[at(i)] = position - turn * (was[at(i)] - trial.laid_at[at(i)]);
+        x[at(i)] = position;
     }
     transport_directors(&mut trial.director, was, x);
 }

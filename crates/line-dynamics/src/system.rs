@@ -85,7 +85,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         matrix: &SMatrix<f64, 8, 8>,
     ) {
         // each of the eight unknowns by those of the nodes: an edge is its second node less its first
-        let places = |local: usize| -> [Option<(usize, f64)>; 2] {
+        let positions = |local: usize| -> [Option<(usize, f64)>; 2] {
             let side = if local < 6 { local / 3 } else { local - 6 };
             match sides[side] {
                 None => [None, None],
@@ -94,11 +94,11 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
             }
         };
         for a in 0..8 {
-            for (row, sign) in places(a).into_iter().flatten() {
+            for (row, sign) in positions(a).into_iter().flatten() {
                 self.residual[row] += sign * gradient[a];
                 if TANGENT {
                     for b in 0..8 {
-                        for (column, other) in places(b).into_iter().flatten() {
+                        for (column, other) in positions(b).into_iter().flatten() {
                             self.band.add(row, column, sign * other * k * matrix[(a, b)]);
                         }
                     }

@@ -179,10 +179,10 @@ pub(super) fn resample_fluid(world: &LineEnvironment, trial: &mut Trial, shortes
     while begin < x.len() {
         // those beside each other together
         let run = x[begin..].iter().zip(&asked[begin..]).take_while(|(x, asked)| !near(x, asked)).count();
-        let places = begin..begin + run;
+        let positions = begin..begin + run;
         if run > 0 {
-            world.fluid.sample_into(&x[places.clone()], *time, &mut fluid[places.clone()]);
-            asked[places.clone()].copy_from_slice(&x[places]);
+            world.fluid.sample_into(&x[positions.clone()], *time, &mut fluid[positions.clone()]);
+            asked[positions.clone()].copy_from_slice(&x[positions]);
         }
         begin += run + 1;
     }

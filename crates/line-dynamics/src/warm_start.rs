@@ -63,7 +63,7 @@ impl TrialPrediction<'_> {
             if !elsewhere[side] {
                 continue;
             }
-            let place = stride * node;
+            let position = stride * node;
             let moved = new.position - old.position;
             // the matrix has the columns of the ends, with velocity and acceleration as the scheme makes them follow
             let faster = new.velocity - old.velocity - moved * system.weights.c;
@@ -72,7 +72,7 @@ impl TrialPrediction<'_> {
             for axis in 0..3 {
                 let by = [&system.ends.columns[1][side][axis], &system.ends.columns[2][side][axis]];
                 for (i, (c, m)) in by[0].iter().zip(by[1]).enumerate() {
-                    let row = (place + axis + i + 1).checked_sub(by[0].len().div_ceil(2));
+                    let row = (position + axis + i + 1).checked_sub(by[0].len().div_ceil(2));
                     let Some(row) = row.filter(|row| *row < size) else { continue };
                     let force = c * faster[axis] + m * harder[axis];
                     match held(row) {
@@ -81,7 +81,7 @@ impl TrialPrediction<'_> {
                     }
                 }
             }
-            system.change[place..place + 3].copy_from_slice(moved.as_slice());
+            system.change[position..position + 3].copy_from_slice(moved.as_slice());
         }
         system.work.solve(&mut system.change);
         let most = largest_change(&system.change, stride, rod.shortest());

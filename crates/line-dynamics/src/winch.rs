@@ -20,8 +20,8 @@ impl Rod {
             .segments
             .get(segment)
             .map(|properties| RodElement { rate, ..RodElement::new(properties, segment, length) });
-        if let (Some(place), Some(made)) = (self.elements.get_mut(element), made) {
-            *place = made;
+        if let (Some(position), Some(made)) = (self.elements.get_mut(element), made) {
+            *position = made;
         }
         Ok(())
     }
@@ -52,8 +52,8 @@ impl Rod {
             state.yielded.insert(element, strain);
         }
         let middle = |list: &[Vector3<f64>]| (list[element] + list[element + 1]) * 0.5;
-        let place = middle(&state.position);
-        state.position.insert(element + 1, place);
+        let position = middle(&state.position);
+        state.position.insert(element + 1, position);
         for list in [&mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             let made = if first {
                 list[element + 1]

@@ -186,24 +186,27 @@ impl Workspace {
     /// Adds to the diagonal of a node and to its residual.
     pub fn add_node_inertia(&mut self, node: usize, by: f64, force: &Vector3<f64>) {
         each!(self, system => for i in 0..3 {
-            let place = system.stride() * node + i;
-            system.band.add(place, place, by);
-            system.residual[place] += force[i];
+            let position = system.stride() * node + i;
+            system.band.add(position, position, by);
+            system.residual[position] += force[i];
         });
     }
 
     /// Adds to the block of a node and to its residual.
     pub fn add_node_stiffness(&mut self, node: usize, by: &Matrix3<f64>, force: &Vector3<f64>) {
         each!(self, system => for i in 0..3 {
-            let place = system.stride() * node;
+            let position = system.stride() * node;
             for j in 0..3 {
-                system.band.add(place + i, place + j, by[(i, j)]);
+                system.band.add(position + i, position + j, by[(i, j)]);
             }
-            system.residual[place + i] += force[i];
+            system.residual[position + i] += force[i];
         });
     }
 
     /// Factors: the number of negative pivots; the node whose pivot vanished otherwise.
+    ///
+    /// # Errors
+    /// The node whose pivot vanished.
     pub fn factor(&mut self) -> Result<usize, usize> {
         each!(self, system => system.band.factor().map_err(|pivot| pivot.row / system.stride()))
     }

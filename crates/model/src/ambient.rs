@@ -58,10 +58,10 @@ pub struct Filling {
 /// Water, wind and bottom around a line, at any place and time.
 pub trait Ambient: Debug + Send + Sync {
     /// Water and air at places (m, global) at a time (s) of a run, with waves; `out` is as long as `places`.
-    fn flow(&self, time: f64, places: &[Vector3<f64>], out: &mut [Flow]);
+    fn flow(&self, time: f64, positions: &[Vector3<f64>], out: &mut [Flow]);
 
     /// The same at rest: mean current and wind, without waves.
-    fn mean(&self, places: &[Vector3<f64>], out: &mut [Flow]);
+    fn mean(&self, positions: &[Vector3<f64>], out: &mut [Flow]);
 
     /// Elevation of the bottom (m, global z) and its slopes dz/dx, dz/dy at a place; none where no depth is known.
     fn bottom(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])>;

@@ -34,8 +34,8 @@ impl Bathymetry {
     /// Fewer than two columns or rows, places that do not grow, more points than [`MAX_GRID_POINTS`], heights that are too few or
     /// too many or no numbers.
     pub fn new(name: &str, x: Vec<f64>, y: Vec<f64>, heights: &[f64], span: Span) -> Result<Self, ClassError> {
-        for (places, what) in [(&x, "x"), (&y, "y")] {
-            grows(places, what).map_err(|e| e.with_span(span))?;
+        for (positions, what) in [(&x, "x"), (&y, "y")] {
+            grows(positions, what).map_err(|e| e.with_span(span))?;
         }
         let wanted = fits(x.len(), y.len()).map_err(|e| e.with_span(span))?;
         if heights.len() != wanted {
@@ -98,10 +98,10 @@ impl Bathymetry {
                 "{count} points with {columns} different x and {rows} different y make no grid: that has {wanted} points"
             );
             let mut error = ClassError::new(text);
-            let places = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
+            let positions = y.iter().flat_map(|y| x.iter().map(move |x| (*x, *y)));
             let there = given.iter().map(Some).chain(std::iter::repeat(None));
             let missing = |((x, y), p): &((f64, f64), Option<&[f64; 3]>)| p.is_none_or(|p| p[0] != *x || p[1] != *y);
-            if let Some(((x, y), _)) = places.zip(there).find(missing) {
+            if let Some(((x, y), _)) = positions.zip(there).find(missing) {
                 let further = ClassError::with_values(
                     "the first place without a height is x = {}, y = {}",
                     &[length(x), length(y)],
@@ -144,14 +144,14 @@ impl Bathymetry {
     }
 
     /// How far a place (m) lies beyond the edges of the grid (m); 0 on it.
-    pub fn distance_outside(&self, place: [f64; 2]) -> f64 {
-        let axes = self.extent().into_iter().zip(place);
+    pub fn distance_outside(&self, position: [f64; 2]) -> f64 {
+        let axes = self.extent().into_iter().zip(position);
         axes.map(|([low, high], at)| (low - at).max(at - high).max(0.0)).fold(0.0, f64::hypot)
     }
 
     /// The shortest distance between neighbouring columns or rows (m).
     pub fn finest_spacing(&self) -> f64 {
-        let steps = |places: &[f64]| places.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
+        let steps = |positions: &[f64]| positions.windows(2).map(|w| w[1] - w[0]).fold(f64::INFINITY, f64::min);
         steps(&self.x).min(steps(&self.y))
     }
 
@@ -186,14 +186,14 @@ pub fn fits(columns: usize, rows: usize) -> Result<usize, ClassError> {
     }
 }
 
-fn grows(places: &[f64], what: &str) -> Result<(), ClassError> {
-    if places.len() < 2 {
+fn grows(positions: &[f64], what: &str) -> Result<(), ClassError> {
+    if positions.len() < 2 {
         return Err(ClassError::new(format!(
             "a bottom has at least two different {what}, and this one {}",
-            places.len()
+            positions.len()
         )));
     }
-    let wrong = places.windows(2).find_map(|w| match w {
+    let wrong = positions.windows(2).find_map(|w| match w {
         [a, b] if a < b && a.is_finite() && b.is_finite() => None,
         [a, b] => Some([(*b, Dim::Length), (*a, Dim::Length)]),
         _ => None,
@@ -207,8 +207,8 @@ fn grows(places: &[f64], what: &str) -> Result<(), ClassError> {
 }
 
 /// Puts the slopes of one of the values of points at these places into another.
-fn slopes(places: &[f64], points: &mut [[f64; 4]], from: usize, to: usize) {
-    let parts: Vec<(f64, f64)> = places
+fn slopes(positions: &[f64], points: &mut [[f64; 4]], from: usize, to: usize) {
+    let parts: Vec<(f64, f64)> = positions
         .windows(2)
         .zip(points.windows(2))
         .map(|(at, of)| {
@@ -241,9 +241,9 @@ struct CubicCell {
 
 impl CubicCell {
     /// The number of the cell in which a place lies, and its cubics there; beyond the edges those of the edge, without change.
-    fn locate(places: &[f64], at: f64) -> (usize, CubicCell) {
-        let index = places.partition_point(|p| *p <= at).saturating_sub(1).min(places.len() - 2);
-        let (low, high) = (places[index], places[index + 1]);
+    fn locate(positions: &[f64], at: f64) -> (usize, CubicCell) {
+        let index = positions.partition_point(|p| *p <= at).saturating_sub(1).min(positions.len() - 2);
+        let (low, high) = (positions[index], positions[index + 1]);
         let step = high - low;
         let whole = (at - low) / step;
         let t = whole.clamp(0.0, 1.0);

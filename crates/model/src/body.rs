@@ -20,7 +20,7 @@ pub struct Body {
     /// Its name as written.
     pub name: String,
     /// Where it stands now.
-    pub place: Place,
+    pub position: Place,
     /// Where it stood before the last `&INSTATE` or equilibrium.
     pub previous: Place,
     /// Degrees of freedom left out (X Y Z RX RY RZ).
@@ -54,7 +54,7 @@ pub struct Part {
     /// Its body.
     pub body: String,
     /// Where it stands in its body.
-    pub place: Place,
+    pub position: Place,
     /// Weights it carries.
     pub weights: Vec<Weight>,
     /// Surfaces of its hull.
@@ -121,9 +121,9 @@ pub struct Mass {
 
 impl Part {
     /// A part without weights and pieces.
-    pub fn new(name: &str, body: &str, place: Place, span: Span) -> Self {
+    pub fn new(name: &str, body: &str, position: Place, span: Span) -> Self {
         let (name, body) = (name.to_string(), body.to_string());
-        Part { name, body, place, weights: Vec::new(), pieces: Vec::new(), span }
+        Part { name, body, position, weights: Vec::new(), pieces: Vec::new(), span }
     }
 }
 
@@ -139,10 +139,10 @@ impl Mass {
         let mut sum = Mass::default();
         let mut first = Vector3::zeros();
         for part in parts {
-            let turn = *part.place.rotation().matrix();
+            let turn = *part.position.rotation().matrix();
             for weight in &part.weights {
                 let mass = weight.weight * weight.multiplier / gravity;
-                let at = Vector3::from(part.place.apply(weight.at));
+                let at = Vector3::from(part.position.apply(weight.at));
                 let own = weight.radii.map(|k| mass * k * k);
                 let own = turn * Matrix3::from_diagonal(&own.into()) * turn.transpose();
                 sum.mass += mass;

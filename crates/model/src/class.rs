@@ -356,7 +356,7 @@ pub trait StaticLineClass {
     ///
     /// # Errors
     /// Values that make none here.
-    fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError>;
+    fn line(&self, position: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError>;
 
     /// The bottom that its lines lie on.
     fn seabed(&self) -> StaticSeabed;
@@ -431,9 +431,9 @@ impl Class {
     ///
     /// # Errors
     /// A class that makes none, or values that make none here.
-    pub fn line(&self, place: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
+    pub fn line(&self, position: &Placement, surroundings: &Surroundings) -> Result<Box<dyn LineModel>, ClassError> {
         if let Some(class) = self.object.as_line() {
-            return class.line(place, surroundings);
+            return class.line(position, surroundings);
         }
         let kind = self.object.kind();
         if self.object.idealisation() == Idealisation::Dynamic {

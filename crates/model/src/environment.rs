@@ -21,13 +21,13 @@ pub struct SeaDefinition {
     /// The parameters of the spectrum behind the period, where given (SI).
     pub shape: Vec<Option<f64>>,
     /// Where its name, direction, height and period were written.
-    pub places: [Span; 4],
+    pub positions: [Span; 4],
 }
 
 impl SeaDefinition {
     /// Where one of its values was written, by its position in `-SEA`.
-    pub fn place(&self, index: usize) -> Span {
-        self.places.get(index).copied().unwrap_or_default()
+    pub fn position(&self, index: usize) -> Span {
+        self.positions.get(index).copied().unwrap_or_default()
     }
 }
 

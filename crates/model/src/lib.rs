@@ -224,9 +224,9 @@ impl Model {
     /// Global coordinates of a point (m), in the present configuration of its body.
     pub fn global(&self, point: &Point) -> Position {
         let part = self.parts.get(&Model::key(&point.part));
-        let in_body = part.map_or(point.at, |p| p.place.apply(point.at));
+        let in_body = part.map_or(point.at, |p| p.position.apply(point.at));
         let body = part.and_then(|p| self.bodies.get(&Model::key(&p.body)));
-        body.map_or(in_body, |b| b.place.apply(in_body))
+        body.map_or(in_body, |b| b.position.apply(in_body))
     }
 
     /// Global position of one end of a connector (0 or 1), with its offset, in the present configuration; `None` when
@@ -234,7 +234,7 @@ impl Model {
     pub fn end(&self, connector: &Connector, index: usize) -> Option<Position> {
         let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
         let offset = connector.offsets.get(index).copied().unwrap_or_default();
-        let turned = self.body_of(point).map_or(offset, |b| b.place.rotate(offset));
+        let turned = self.body_of(point).map_or(offset, |b| b.position.rotate(offset));
         let [x, y, z] = self.global(point);
         let [dx, dy, dz] = turned;
         Some([x + dx, y + dy, z + dz])
@@ -244,7 +244,7 @@ impl Model {
     /// its body; `None` when it has no such point.
     pub fn end_pose(&self, connector: &Connector, index: usize) -> Option<Pose> {
         let point = connector.points.get(index).and_then(|name| self.points.get(&Model::key(name)))?;
-        let body = self.body_of(point).map(|b| Pose::from_place(&b.place)).unwrap_or_default();
+        let body = self.body_of(point).map(|b| Pose::from_place(&b.position)).unwrap_or_default();
         self.end(connector, index).map(|at| Pose { origin: at.into(), ..body })
     }
 

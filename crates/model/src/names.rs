@@ -168,11 +168,11 @@ impl Model {
         if mine.iter().any(|thing| self.definition_span(*thing, name).is_some()) {
             return Ok(());
         }
-        match UNMARKED.into_iter().find_map(|thing| self.definition_span(thing, name).map(|place| (thing, place))) {
+        match UNMARKED.into_iter().find_map(|thing| self.definition_span(thing, name).map(|position| (thing, position))) {
             None => Ok(()),
-            Some((thing, place)) => {
+            Some((thing, position)) => {
                 Err(Diagnostic::error(format!("{name} is the name of {} already", with_article(thing.word())), span)
-                    .other(place, "defined here")
+                    .other(position, "defined here")
                     .help("connectors, bodies, parts, pieces, curves, bathymetries, T_PRESSURE data, draft marks and environments all have different names"))
             }
         }

@@ -37,11 +37,11 @@ pub fn remove_periods(times: &[f64], values: &[f64], bands: &[[f64; 2]]) -> Resu
         return Ok((samples, false));
     }
     let back = |t: &f64| {
-        let place = ((t - grid.start) / grid.step).clamp(0.0, (count - 1) as f64);
-        let before = (place.floor() as usize).min(count - 2);
+        let position = ((t - grid.start) / grid.step).clamp(0.0, (count - 1) as f64);
+        let before = (position.floor() as usize).min(count - 2);
         // the grid has `count` samples, and `before` is one of them but the last
         let (a, b) = (samples[before], samples[before + 1]);
-        a + (b - a) * (place - before as f64)
+        a + (b - a) * (position - before as f64)
     };
     Ok((times.iter().map(back).collect(), true))
 }

@@ -42,8 +42,8 @@ pub fn histogram(values: &[f64], bins: usize) -> Result<Vec<Bin>, SeriesError> {
     let edge = |i: usize| if i == bins { high } else { low + width * i as f64 };
     let mut out: Vec<Bin> = (0..bins).map(|i| Bin { low: edge(i), high: edge(i + 1), count: 0 }).collect();
     for value in values {
-        let place = if width > 0.0 { (((value - low) / width) as usize).min(bins - 1) } else { 0 };
-        if let Some(bin) = out.get_mut(place) {
+        let position = if width > 0.0 { (((value - low) / width) as usize).min(bins - 1) } else { 0 };
+        if let Some(bin) = out.get_mut(position) {
             bin.count += 1;
         }
     }

@@ -113,8 +113,8 @@ pub fn range_mean(cycles: &[RainflowCycle], ranges: usize, means: usize) -> Resu
     let mut counts = vec![vec![0.0; means]; ranges];
     for cycle in cycles {
         let row = ((cycle.range / range_width) as usize).min(ranges - 1);
-        let place = (((cycle.mean - low) / mean_width) as usize).min(means - 1);
-        if let Some(cell) = counts.get_mut(row).and_then(|r| r.get_mut(place)) {
+        let position = (((cycle.mean - low) / mean_width) as usize).min(means - 1);
+        if let Some(cell) = counts.get_mut(row).and_then(|r| r.get_mut(position)) {
             *cell += cycle.count;
         }
     }

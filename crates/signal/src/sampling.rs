@@ -31,14 +31,14 @@ pub fn uniform<'a>(times: &[f64], values: &'a [f64]) -> Result<Uniform<'a>, Seri
     };
     let count = times.len();
     let step = (last - first) / (count - 1) as f64;
-    let place = |i: usize| first + step * i as f64;
-    if times.iter().enumerate().all(|(i, t)| (t - place(i)).abs() <= STEP_TOLERANCE * step) {
+    let position = |i: usize| first + step * i as f64;
+    if times.iter().enumerate().all(|(i, t)| (t - position(i)).abs() <= STEP_TOLERANCE * step) {
         return Ok(Uniform { start: *first, step, values: Cow::Borrowed(values), resampled: false });
     }
     let mut out = Vec::with_capacity(count);
     let mut pairs = times.windows(2).zip(values.windows(2)).peekable();
     for i in 0..count {
-        let t = place(i);
+        let t = position(i);
         while pairs.len() > 1 && pairs.peek().is_some_and(|(w, _)| matches!(w, [_, b] if *b < t)) {
             pairs.next();
         }

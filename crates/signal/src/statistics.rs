@@ -51,16 +51,16 @@ pub fn moments(values: &[f64]) -> Result<Moments, SeriesError> {
     let mean = values.iter().sum::<f64>() / count;
     let (mut sums, mut squares) = ([0.0; 3], 0.0);
     let (mut minimum, mut maximum) = ((0, *first), (0, *first));
-    for (place, value) in values.iter().enumerate() {
+    for (position, value) in values.iter().enumerate() {
         let d = value - mean;
         let d2 = d * d;
         sums = [sums[0] + d2, sums[1] + d2 * d, sums[2] + d2 * d2];
         squares += value * value;
         if *value < minimum.1 {
-            minimum = (place, *value);
+            minimum = (position, *value);
         }
         if *value > maximum.1 {
-            maximum = (place, *value);
+            maximum = (position, *value);
         }
     }
     let (skewness, kurtosis) = shape(count, sums, maximum.1.abs().max(minimum.1.abs()));

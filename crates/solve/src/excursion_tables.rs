@@ -26,7 +26,7 @@ pub struct ExcursionTableOptions<'a> {
     /// The body as written.
     pub name: &'a str,
     /// Where it stands: its heading is reported near this one.
-    pub place: &'a Place,
+    pub position: &'a Place,
     /// The poses of all bodies before they are moved.
     pub start: &'a [Pose],
     /// How it is moved; the direction is that of the first of several.
@@ -131,7 +131,7 @@ pub fn table_along_direction(
         let there = intact.as_mut().and_then(|walk| walk.move_to(moved.excursion).ok());
         rows.push(AlongRow {
             moved,
-            place: without_rounding(moved.poses[path.body].place(asked.place)),
+            position: without_rounding(moved.poses[path.body].position(asked.position)),
             critical: Critical::new(moved.worst(), &names),
             intact_force: there.as_ref().map(|there| {
                 let [force, ..] = restoring_cells(there, path.direction);
@@ -144,10 +144,10 @@ pub fn table_along_direction(
         .with_rows(&rows)
         .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.moved.excursion)
         .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| {
-            let ([x, y, z], rest) = (row.place.shift, row.moved.excursion);
+            let ([x, y, z], rest) = (row.position.shift, row.moved.excursion);
             [sum(x, rest), sum(y, rest), z]
         })
-        .column("Location", "Heading", Dim::Angle, Digits::Usual, |row| row.place.turn[2]);
+        .column("Location", "Heading", Dim::Angle, Digits::Usual, |row| row.position.turn[2]);
     let table = forces(table, |row| restoring_cells(row.moved, path.direction)).columns(
         "Moment of Connectors",
         ["MX", "MY", "MZ"],
@@ -186,7 +186,7 @@ pub fn table_along_direction(
 /// A place of a body that is moved in one direction.
 struct AlongRow<'m> {
     moved: &'m ExcursionStep,
-    place: Place,
+    position: Place,
     critical: Critical,
     /// The restoring force (N) and the critical line of the intact mooring there.
     intact_force: Option<f64>,
@@ -299,7 +299,7 @@ pub fn circle(
     intact: Option<&Circle>,
 ) -> Table {
     let title = format!("Watch Circle of {}", asked.name);
-    let Circle { names, places } = found;
+    let Circle { names, positions } = found;
     let start = asked.start[asked.path.body];
     let gone = |pose: &Pose| (pose.origin.x - start.origin.x).hypot(pose.origin.y - start.origin.y);
     let at = |pose: &Pose| {
@@ -309,7 +309,7 @@ pub fn circle(
     };
     let mut broken: Vec<String> = Vec::new();
     let mut rows = Vec::new();
-    for (index, WatchedBody { direction, pose, lines }) in places.iter().enumerate() {
+    for (index, WatchedBody { direction, pose, lines }) in positions.iter().enumerate() {
         let most = worst(lines);
         if let Some((_, line)) = most.filter(|(ratio, _)| *ratio > 1.0)
             && let Some(name) = names.get(line).filter(|n| !broken.contains(n))
@@ -318,11 +318,11 @@ pub fn circle(
         }
         rows.push(CircleRow {
             direction: *direction,
-            place: at(pose),
-            heading: sum(without_rounding(pose.place(asked.place)).turn[2], 1.0),
+            position: at(pose),
+            heading: sum(without_rounding(pose.position(asked.position)).turn[2], 1.0),
             tension: most.and_then(|(_, line)| lines.get(line)).and_then(|l| l.tension),
             critical: Critical::new(most, names),
-            intact: intact.and_then(|other| other.places.get(index)).map(|w| at(&w.pose)),
+            intact: intact.and_then(|other| other.positions.get(index)).map(|w| at(&w.pose)),
         });
     }
     let [x, y, ..] = DOFS;
@@ -330,15 +330,15 @@ pub fn circle(
         .fact("Force", force, Dim::Force)
         .with_rows(&rows)
         .column("Force", "From", Dim::Angle, Digits::Usual, |row| row.direction)
-        .columns("Location", [x, y], Dim::Length, Digits::Usual, |row| [row.place[0], row.place[1]])
-        .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.place[2])
+        .columns("Location", [x, y], Dim::Length, Digits::Usual, |row| [row.position[0], row.position[1]])
+        .column("", "Excursion", Dim::Length, Digits::Usual, |row| row.position[2])
         .column("", "Heading", Dim::Angle, Digits::Usual, |row| row.heading)
         .column("Critical Line", "Tension", Dim::Force, Digits::Usual, |row| row.tension);
     let mut table = Critical::columns(table, |row| &row.critical);
     if intact.is_some() {
         let names = ["Intact X", "Intact Y", "Intact Exc."];
         table = table.columns("Intact", names, Dim::Length, Digits::Usual, |row| {
-            row.intact.map_or([None; 3], |place| place.map(Some))
+            row.intact.map_or([None; 3], |position| position.map(Some))
         });
     }
     let mut table = table.build();
@@ -354,7 +354,7 @@ struct CircleRow {
     /// Where the force comes from (rad).
     direction: f64,
     /// X, Y and excursion (m).
-    place: [f64; 3],
+    position: [f64; 3],
     /// (rad)
     heading: f64,
     /// Of the critical line (N).

@@ -92,7 +92,7 @@ pub(super) fn end_attachments(model: &Model, connector: &Connector) -> [EndAttac
         let body = model.body_of(point)?;
         let index = model.bodies.get_index_of(&Model::key(&body.name))?;
         let at = poses.get(i)?.origin;
-        Some(EndAttachment::Body(index, Pose::from_place(&body.place).local(at)))
+        Some(EndAttachment::Body(index, Pose::from_place(&body.position).local(at)))
     };
     let [first, second] = poses;
     [on_body(0).unwrap_or(EndAttachment::Ground(first)), on_body(1).unwrap_or(EndAttachment::Ground(second))]

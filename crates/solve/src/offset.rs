@@ -55,8 +55,8 @@ impl BodyConnectors {
     /// The largest distance between the ends of one of them (m).
     pub fn size(&self, system: &System, poses: &[Pose]) -> f64 {
         let distance = |link: &Link| {
-            let places: Vec<_> = link.ends.iter().map(|end| pose_of(end, poses).origin).collect();
-            places.iter().zip(places.iter().skip(1)).fold(0.0, |most: f64, (a, b)| most.max((a - b).norm()))
+            let positions: Vec<_> = link.ends.iter().map(|end| pose_of(end, poses).origin).collect();
+            positions.iter().zip(positions.iter().skip(1)).fold(0.0, |most: f64, (a, b)| most.max((a - b).norm()))
         };
         self.links(system).map(distance).fold(0.0, f64::max)
     }

@@ -53,9 +53,9 @@ impl OutlineEdge {
 
 /// The outline of a body: its hull pieces, or where it has none all points of its parts.
 pub fn outline(model: &Model, body: &Body) -> Outline {
-    let mut made = Outline { name: body.name.clone(), origin: body.place.apply([0.0; 3]), ..Outline::default() };
+    let mut made = Outline { name: body.name.clone(), origin: body.position.apply([0.0; 3]), ..Outline::default() };
     for part in model.parts_of(body) {
-        let global = |at: Position| body.place.apply(part.place.apply(at));
+        let global = |at: Position| body.position.apply(part.position.apply(at));
         for piece in &part.pieces {
             let panels: Vec<Vec<Position>> =
                 panels_of(&piece.shape).into_iter().map(|p| p.into_iter().map(global).collect()).collect();

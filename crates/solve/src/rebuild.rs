@@ -28,7 +28,7 @@ pub fn find_equilibrium_with_rebuilds(
     model: &mut Model,
     options: &EquilibriumOptions,
 ) -> Result<EquilibriumResult, SolveError> {
-    let start: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
+    let start: Vec<Place> = model.bodies.values().map(|b| b.position).collect();
     let made = |model: &Model| {
         let mut system = System::new(model, &[])?;
         // what does not move in this solution is not reported as free either
@@ -42,7 +42,7 @@ pub fn find_equilibrium_with_rebuilds(
     let mut system = made(model)?;
     let mut state = system.state(model);
     let mut found = equilibrium(&system, &mut state, options)?;
-    system.place(&state, model);
+    system.position(&state, model);
     let mut settled = !system.has_placed_elements();
     for _ in 0..MAX_REBUILDS {
         if !system.has_placed_elements() {
@@ -51,7 +51,7 @@ pub fn find_equilibrium_with_rebuilds(
         system = made(model)?;
         state = system.state(model);
         let again = equilibrium(&system, &mut state, options)?;
-        system.place(&state, model);
+        system.position(&state, model);
         let moved = again.search.iterations > 1;
         found.search += again.search;
         found.loose = again.loose;
@@ -64,8 +64,8 @@ pub fn find_equilibrium_with_rebuilds(
         let text = "the layout of its dynamic lines on the bottom does not settle at the places their ends come to";
         return Err(SolveError::new(ClassError::new(text).help("&EQUI again goes on from the last place")));
     }
-    for (body, place) in model.bodies.values_mut().zip(start) {
-        body.previous = place;
+    for (body, position) in model.bodies.values_mut().zip(start) {
+        body.previous = position;
     }
     Ok(EquilibriumResult { found, system, state })
 }

@@ -175,7 +175,7 @@ impl Scene {
     }
 
     /// Every place that a picture must show (m).
-    pub fn places(&self) -> impl Iterator<Item = Position> + '_ {
+    pub fn positions(&self) -> impl Iterator<Item = Position> + '_ {
         let bodies = self.bodies.iter().flat_map(|b| b.panels.iter().flatten().chain(&b.points).copied());
         let paths = self.paths.iter().flat_map(|p| p.points.iter().copied());
         bodies.chain(paths).chain(self.marks.iter().map(|m| m.at))
@@ -322,19 +322,19 @@ impl LineShape {
         };
         let (_, along) = placement.span();
         let [x0, y0, _] = placement.fairlead;
-        let place = |x: f64, z: f64| [x0 + along[0] * x, y0 + along[1] * x, z];
+        let position = |x: f64, z: f64| [x0 + along[0] * x, y0 + along[1] * x, z];
         let xs = column("X");
         let at = |heights: Vec<Option<f64>>| -> Vec<(f64, f64)> {
             xs.iter().zip(heights).filter_map(|(x, z)| x.zip(z)).collect()
         };
         let mut marks = Vec::new();
         for (sign, name) in [(Sign::Touchdown, "Touchdown"), (Sign::Joint, "Joint")] {
-            let mark = |(x, z)| Mark { sign, name: String::new(), at: place(x, z) };
+            let mark = |(x, z)| Mark { sign, name: String::new(), at: position(x, z) };
             marks.extend(at(column(name)).into_iter().map(mark));
         }
         let bottom = at(column("Bottom"));
-        let bottom = bottom.first().zip(bottom.last()).map(|(a, b)| vec![place(a.0, a.1), place(b.0, b.1)]);
-        let points: Vec<Position> = at(column("Z")).into_iter().map(|(x, z)| place(x, z)).collect();
+        let bottom = bottom.first().zip(bottom.last()).map(|(a, b)| vec![position(a.0, a.1), position(b.0, b.1)]);
+        let points: Vec<Position> = at(column("Z")).into_iter().map(|(x, z)| position(x, z)).collect();
         let tensions: Vec<f64> = column("Tension").into_iter().flatten().collect();
         let tensions = if tensions.len() == points.len() { tensions } else { Vec::new() };
         LineShape { points, tensions, marks, bottom }

@@ -272,8 +272,8 @@ impl EndMotion {
         let (start, growing) = if ramped > first { (ramped, RAMP_PERIODS * period) } else { (first, 0.0) };
         let within = |row: &&StoredEnds| row.time >= start && row.time <= end;
         let count = rows.iter().filter(within).count().max(1) as f64;
-        let place = |side: usize| rows.iter().filter(within).map(|r| r.ends[side].pose.origin).sum::<Vector3<f64>>();
-        let mean = [0, 1].map(|side| place(side) / count);
+        let position = |side: usize| rows.iter().filter(within).map(|r| r.ends[side].pose.origin).sum::<Vector3<f64>>();
+        let mean = [0, 1].map(|side| position(side) / count);
         let lengths: Vec<f64> =
             used.iter().filter_map(|row| row.get(link.active + 1).copied()).filter(|l| l.is_finite()).collect();
         if lengths.iter().any(|l| Some(l) != lengths.first()) {
@@ -317,11 +317,12 @@ fn stored_ends(layout: &RowLayout, number: usize, attached: &[EndAttachment; 2],
     let motion = |body: usize| {
         let at = layout.body(body);
         let Some(numbers) = row.get(at..at + VALUES_PER_BODY) else { return BodyMotion::default() };
-        let (place, rest) = numbers.split_at(6);
-        let place = Place { shift: [place[0], place[1], place[2]], turn: [place[3], place[4], place[5]] };
+        let (position, rest) = numbers.split_at(6);
+        let position =
+            Place { shift: [position[0], position[1], position[2]], turn: [position[3], position[4], position[5]] };
         let (velocity, acceleration) = rest.split_at(6);
         BodyMotion {
-            pose: Pose::from_place(&place),
+            pose: Pose::from_place(&position),
             velocity: Six::from_column_slice(velocity),
             acceleration: Six::from_column_slice(acceleration),
             ..BodyMotion::default()
@@ -353,11 +354,11 @@ fn interpolate_ends((t0, from): (f64, &End), (t1, to): (f64, &End), time: f64) -
     let c3 = dx * 10.0 - dv * 4.0 + da * 0.5;
     let c4 = dx * -15.0 + dv * 7.0 - da;
     let c5 = dx * 6.0 - dv * 3.0 + da * 0.5;
-    let place = from.pose.origin + v0 * s + a0 * (0.5 * s * s) + (c3 + (c4 + c5 * s) * s) * s.powi(3);
+    let position = from.pose.origin + v0 * s + a0 * (0.5 * s * s) + (c3 + (c4 + c5 * s) * s) * s.powi(3);
     let speed = v0 + a0 * s + (c3 * 3.0 + (c4 * 4.0 + c5 * (5.0 * s)) * s) * (s * s);
     let acceleration = a0 + (c3 * 6.0 + (c4 * 12.0 + c5 * (20.0 * s)) * s) * s;
     End {
-        pose: Pose { origin: place, axes: from.pose.axes },
+        pose: Pose { origin: position, axes: from.pose.axes },
         velocity: linear(&(speed / h)),
         acceleration: linear(&(acceleration / (h * h))),
     }

@@ -97,6 +97,10 @@ impl<'a> EquilibriumSearch<'a> {
         }
     }
 
+    /// Forces of the bodies of this part at the trial, counted.
+    ///
+    /// # Errors
+    /// A connector without an answer at this place, or an interruption.
     pub fn evaluate(&mut self, state: &mut SystemState) -> Result<(), SolveError> {
         self.statistics.evaluations += 1;
         state.ties.holds = true;
@@ -111,6 +115,9 @@ impl<'a> EquilibriumSearch<'a> {
     }
 
     /// Goes on from a place where `worst` is left: a step, or back to a better place.
+    ///
+    /// # Errors
+    /// A trial that no shortening of the step makes answerable, or an interruption.
     pub fn advance(&mut self, unknowns: &Unknowns, state: &mut SystemState, worst: f64) -> Result<(), SolveError> {
         if let Some(steps) = &mut self.non_monotone {
             if worst < steps.left {
@@ -141,7 +148,7 @@ impl<'a> EquilibriumSearch<'a> {
         let from = BodyPlaces::from_state(state);
         let motions = unknowns.motions(from.poses.len(), &step, 1.0);
         let ties = state.ties.predict(&|body| motions[body]);
-        let place = |state: &mut SystemState, share: f64| {
+        let position = |state: &mut SystemState, share: f64| {
             state.poses = unknowns.move_bodies(&from.poses, &step, share);
             state.ties.forces = interpolate_forces(&from.ties, &ties, share);
         };
@@ -156,7 +163,7 @@ impl<'a> EquilibriumSearch<'a> {
         let mut share = longest;
         let (mut error, mut trials, mut retreats) = (None, 0, 0);
         while trials < MAX_LINE_SEARCH_TRIALS && retreats < MAX_RETREATS {
-            place(state, share);
+            position(state, share);
             match self.evaluate(state) {
                 Ok(()) => {
                     trials += 1;
@@ -193,7 +200,7 @@ impl<'a> EquilibriumSearch<'a> {
             share = near + (far - near) * straight.clamp(0.05, 0.7);
         }
         if before.0 > 0.0 {
-            place(state, before.0);
+            position(state, before.0);
             self.evaluate(state)?;
             self.record_step(before.0 / longest, needed, 1.0, blind);
             self.blocked = 0;

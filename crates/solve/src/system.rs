@@ -197,8 +197,10 @@ impl System {
 
     /// A state with the bodies where they stand in the model.
     pub fn state(&self, model: &Model) -> SystemState {
-        let poses =
-            self.nodes.iter().map(|n| model.bodies.get(&n.key).map(|b| Pose::from_place(&b.place)).unwrap_or_default());
+        let poses = self
+            .nodes
+            .iter()
+            .map(|n| model.bodies.get(&n.key).map(|b| Pose::from_place(&b.position)).unwrap_or_default());
         SystemState::from_poses(poses.collect())
     }
 
@@ -390,23 +392,23 @@ impl System {
     }
 
     /// Puts the bodies of a model where a state has them, remembering where they were.
-    pub fn place(&self, state: &SystemState, model: &mut Model) {
-        let before: Vec<_> = model.bodies.values().map(|b| b.place).collect();
-        for (body, place) in model.bodies.values_mut().zip(before) {
-            body.previous = place;
+    pub fn position(&self, state: &SystemState, model: &mut Model) {
+        let before: Vec<_> = model.bodies.values().map(|b| b.position).collect();
+        for (body, position) in model.bodies.values_mut().zip(before) {
+            body.previous = position;
         }
         for (node, pose) in self.nodes.iter().zip(&state.poses) {
             if let Some(body) = model.bodies.get_mut(&node.key) {
-                body.place = without_rounding(pose.place(&body.place));
+                body.position = without_rounding(pose.position(&body.position));
             }
         }
     }
 }
 
 /// A place with what is less than any solution is exact to left out: a tenth of a nanometre, and that on a kilometre.
-pub(super) fn without_rounding(place: Place) -> Place {
+pub(super) fn without_rounding(position: Place) -> Place {
     let kept = |least: f64| move |v: f64| if v.abs() < least { 0.0 } else { v };
-    Place { shift: place.shift.map(kept(1e-10)), turn: place.turn.map(kept(1e-13)) }
+    Place { shift: position.shift.map(kept(1e-10)), turn: position.turn.map(kept(1e-13)) }
 }
 
 /// The bodies of a model under way.

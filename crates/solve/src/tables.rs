@@ -46,7 +46,7 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
             let (force, mass) = (moving(0), node.floating.mass.mass);
             Some(RestRow {
                 name: &node.name,
-                place: model.bodies.get(&node.key)?.place,
+                position: model.bodies.get(&node.key)?.position,
                 force,
                 moment: moving(3),
                 share: (mass > 0.0).then(|| force / (mass * settled.system.gravity)),
@@ -58,8 +58,8 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
         .fact("Evaluations", settled.found.search.evaluations, Dim::None)
         .with_rows(&rows)
         .text("Body", |row| row.name)
-        .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.place.shift)
-        .columns("Rotation", ["Roll", "Pitch", "Yaw"], Dim::Angle, Digits::Usual, |row| row.place.turn)
+        .columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.position.shift)
+        .columns("Rotation", ["Roll", "Pitch", "Yaw"], Dim::Angle, Digits::Usual, |row| row.position.turn)
         .column("Left", "Force", Dim::Force, Digits::Scientific(2), |row| row.force)
         .column("Left", "Moment", Dim::Moment, Digits::Scientific(2), |row| row.moment)
         .column("Left", "Accel/g", Dim::None, Digits::Scientific(2), |row| row.share)
@@ -79,7 +79,7 @@ pub fn rest(model: &Model, settled: &EquilibriumResult) -> Table {
 /// A body at rest.
 struct RestRow<'m> {
     name: &'m str,
-    place: Place,
+    position: Place,
     /// The force (N) and the moment (N m) left on its degrees of freedom.
     force: f64,
     moment: f64,

@@ -178,7 +178,7 @@ pub(super) fn find_restrained_rotations(
     let kept = |(body, (node, pose)): (usize, (&SystemBody, &Pose))| {
         let free = [3, 4, 5].map(|f| node.free.get(f) == Some(&true) && !options.ignored.contains(&(body, f)));
         let some = free.contains(&true) && free.contains(&false);
-        let [roll, pitch, yaw] = pose.place(&Place::default()).turn;
+        let [roll, pitch, yaw] = pose.position(&Place::default()).turn;
         let mut turns = [Some(roll), Some(pitch), Some(yaw)];
         for (turn, free) in turns.iter_mut().zip(free) {
             if free || !some {
@@ -192,9 +192,9 @@ pub(super) fn find_restrained_rotations(
 
 /// A pose with the angles it keeps.
 fn restore_restrained_rotations(pose: Pose, turns: &Turns) -> Pose {
-    let mut place = pose.place(&Place::default());
-    for (turn, kept) in place.turn.iter_mut().zip(turns) {
+    let mut position = pose.position(&Place::default());
+    for (turn, kept) in position.turn.iter_mut().zip(turns) {
         *turn = kept.unwrap_or(*turn);
     }
-    Pose { axes: Pose::from_place(&place).axes, ..pose }
+    Pose { axes: Pose::from_place(&position).axes, ..pose }
 }

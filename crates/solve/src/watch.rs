@@ -26,7 +26,7 @@ pub struct Circle {
     /// Names of its connectors.
     pub names: Vec<String>,
     /// One for each direction.
-    pub places: Vec<WatchedBody>,
+    pub positions: Vec<WatchedBody>,
 }
 
 /// A body at rest under a horizontal force (N) at its origin that comes from each of these directions in turn, beside all
@@ -62,5 +62,5 @@ pub fn watch(
     }
     let names = connectors.names(system).map(str::to_string).collect();
     system.applied.clear();
-    Ok(Circle { names, places: list })
+    Ok(Circle { names, positions: list })
 }

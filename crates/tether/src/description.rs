@@ -166,8 +166,8 @@ impl TetherDescription<'_> {
         let axes = ["X", "Y", "Z"];
         let [anchor, vessel] = &self.ends;
         out = out.fact("VESSEL ATTACHMENT - NODE", vessel.node.as_str(), Dim::None);
-        for (what, place) in [("POSITION IN FRA", vessel.given), ("INITIAL POSITION", vessel.initial)] {
-            for (axis, value) in axes.into_iter().zip(place) {
+        for (what, position) in [("POSITION IN FRA", vessel.given), ("INITIAL POSITION", vessel.initial)] {
+            for (axis, value) in axes.into_iter().zip(position) {
                 // what is rounding of the length is no place
                 let value = without_noise(value, self.line.length());
                 out = out.fact_with_digits(&format!("- {what} {axis}"), value, Dim::Length, MILLIMETRES);

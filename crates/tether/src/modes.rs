@@ -38,7 +38,7 @@ pub struct PlaneMode {
     /// Deflection and slope of each node; `phi' M phi = 1`.
     pub shape: Vec<f64>,
     /// Its unknown in the matrices ([`super::jacobi::eigenvalue_places`]): twice the node, and one more for a slope.
-    pub place: Option<usize>,
+    pub position: Option<usize>,
 }
 
 /// The plane a mode lies in.
@@ -63,7 +63,7 @@ pub struct NaturalMode {
     /// Slope d/dx of each node (rad) at that scale.
     pub slopes: Vec<f64>,
     /// Its unknown in the matrices of its plane: twice the node, and one more for a slope.
-    pub place: Option<usize>,
+    pub position: Option<usize>,
 }
 
 impl NaturalMode {
@@ -85,7 +85,7 @@ impl NaturalMode {
     /// The place by those of deflection and slope in the two planes.
     pub(crate) fn dof_of(&self, dofs: [[usize; 2]; 2]) -> Option<usize> {
         let [deflection, slope] = dofs[usize::from(self.plane == ModePlane::Z)];
-        self.place.map(|place| 4 * (place / 2) + if place % 2 == 0 { deflection } else { slope })
+        self.position.map(|position| 4 * (position / 2) + if position % 2 == 0 { deflection } else { slope })
     }
 
     /// Y, Z (scaled), RY, RZ (rad) of a node by the right hand.
@@ -160,8 +160,8 @@ pub fn modes(pencil: &Pencil, number: usize) -> Result<Vec<PlaneMode>, ClassErro
         found.push(search.shape(shift, &found)?);
     }
     found.sort_by(|a, b| a.eigenvalue.total_cmp(&b.eigenvalue));
-    for (mode, place) in found.iter_mut().zip(eigenvalue_places(pencil.stiffness, pencil.mass)) {
-        mode.place = Some(place);
+    for (mode, position) in found.iter_mut().zip(eigenvalue_places(pencil.stiffness, pencil.mass)) {
+        mode.position = Some(position);
     }
     Ok(found)
 }
@@ -189,8 +189,8 @@ fn scale_mode(plane: ModePlane, mode: &PlaneMode) -> NaturalMode {
     let size = if deflection.abs() >= slope.abs() { deflection } else { slope };
     let size = if size == 0.0 { 1.0 } else { size };
     let times = |list: Vec<f64>| list.into_iter().map(|v| v / size).collect();
-    let (eigenvalue, place) = (mode.eigenvalue, mode.place);
-    NaturalMode { plane, eigenvalue, deflections: times(deflections), slopes: times(slopes), place }
+    let (eigenvalue, position) = (mode.eigenvalue, mode.position);
+    NaturalMode { plane, eigenvalue, deflections: times(deflections), slopes: times(slopes), position }
 }
 
 /// A search with its work space.
@@ -243,7 +243,7 @@ impl ModeSearch<'_> {
             let message = "the natural mode of the tether near a squared frequency of {} cannot be found";
             return Err(ClassError::with_values(message, &[(shift, Dim::None)]));
         }
-        Ok(PlaneMode { eigenvalue, shape, place: None })
+        Ok(PlaneMode { eigenvalue, shape, position: None })
     }
 
     /// Takes the found modes out of a shape (twice: once leaves the rounding of what was taken out) and gives it unit mass.
@@ -356,7 +356,7 @@ mod tests {
 
     #[test]
     fn shape_is_scaled_to_unit_deflection_or_ten_degrees() {
-        let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape, place: None };
+        let mode = |shape: Vec<f64>| PlaneMode { eigenvalue: 1.0, shape, position: None };
         let found = together(&[mode(vec![2.0, 0.1, -4.0, 0.2])], &[mode(vec![0.1, 0.5, 0.0, -1.0])], 9);
         assert_eq!((found[0].plane, found[1].plane), (ModePlane::Z, ModePlane::Y));
         assert_eq!(found[1].deflections, [-0.5, 1.0]);

@@ -97,7 +97,7 @@ pub struct Soundings {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const NAME: DatumKey<str> = SPEC.word("NAME");
-    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.position(NAME));
     rule::check(name, None, "bathymetry", span)?;
     job.model.free_name(name, &[EntityKind::Bathymetry], span)?;
     let sign = if args.has(&DEPTHS) { -1.0 } else { 1.0 };
@@ -165,7 +165,7 @@ fn columns(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()>
 }
 
 fn row(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()> {
-    let [place, heights @ ..] = data else { return Ok(()) };
+    let [position, heights @ ..] = data else { return Ok(()) };
     let (count, wanted) = (heights.len(), soundings.x.len());
     if wanted == 0 {
         return Err(Diagnostic::error("X of a bottom comes before its first Y", span).help("form: X x1 x2 .."));
@@ -175,8 +175,8 @@ fn row(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()> {
         let text = format!("a row of this bottom has {wanted} heights, one for each X, and this one {count}");
         return Err(Diagnostic::error(text, at).help("form: Y y z1 z2 .."));
     }
-    let y = place.number().unwrap_or_default();
-    check_growing(soundings.y.last(), y, "Y", place.span)?;
+    let y = position.number().unwrap_or_default();
+    check_growing(soundings.y.last(), y, "Y", position.span)?;
     fits(wanted, soundings.y.len() + 1).map_err(|e| e.diagnostic(span, Default::default()))?;
     soundings.y.push(y);
     soundings.heights.extend(heights.iter().map(|v| soundings.sign * v.number().unwrap_or_default()));
@@ -189,13 +189,13 @@ fn row(soundings: &mut Soundings, data: &[Value], span: Span) -> Outcome<()> {
 /// Records that were refused, or too few.
 pub fn finish_grid(job: &mut Job, soundings: Soundings, at: Option<Span>) -> Outcome<()> {
     let Soundings { name, x, y, heights, refused, span, .. } = soundings;
-    let place = at.unwrap_or(span);
+    let position = at.unwrap_or(span);
     if let Some(refused) = refused {
         let text = format!("bathymetry {name} is not made: a record of it was refused");
-        return Err(Diagnostic::error(text, place).other(refused, "this one"));
+        return Err(Diagnostic::error(text, position).other(refused, "this one"));
     }
     let grid = Bathymetry::new(&name, x, y, &heights, span);
-    keep(job, grid.map_err(|e| e.with_span(place).diagnostic(place, job.units).other(span, "begun here"))?);
+    keep(job, grid.map_err(|e| e.with_span(position).diagnostic(position, job.units).other(span, "begun here"))?);
     Ok(())
 }
 

@@ -281,7 +281,7 @@ fn define(job: &mut Job, call: &Call, kind: CurveKind) -> Outcome<Effect> {
     let args = &call.args;
     // the data of every curve begin so
     const NAME: DatumKey<str> = BY_TIME.word("NAME");
-    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.position(NAME));
     rule::check(name, None, "curve", span)?;
     job.model.free_name(name, &[EntityKind::Curve], span)?;
     let [(first, _), _] = kind.axes();

@@ -245,8 +245,8 @@ fn build(job: &Job, args: &Args) -> Outcome<Environment> {
     const NAME: DatumKey<str> = ENV_SPEC.word("NAME");
     let name = args.word(NAME).unwrap_or_default();
     if !name.is_empty() {
-        rule::check(name, None, "environment", args.place(NAME))?;
-        job.model.free_name(name, &[EntityKind::Environment], args.place(NAME))?;
+        rule::check(name, None, "environment", args.position(NAME))?;
+        job.model.free_name(name, &[EntityKind::Environment], args.position(NAME))?;
     }
     let kept = job.model.environments.get(&Model::key(name)).filter(|_| !name.is_empty());
     let mut env = kept.cloned().unwrap_or_else(|| Environment {
@@ -315,7 +315,7 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
             const TRANSIENT: ValueKey<f64> = TIME.number("TTRA_SET");
             let [observed, step] = given.numbers_or_zero([OBSERVED, STEP]);
             if step > observed {
-                return Err(Diagnostic::error("the time step is longer than the time observed", given.place(STEP)));
+                return Err(Diagnostic::error("the time step is longer than the time observed", given.position(STEP)));
             }
             if let Some(transient) =
                 given.number(TRANSIENT).filter(|transient| observed > 0.0 && *transient >= observed)
@@ -325,7 +325,7 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
                     format_value(transient, Dim::Time, job.units),
                     format_value(observed, Dim::Time, job.units)
                 );
-                return Err(Diagnostic::error(text, given.place(TRANSIENT))
+                return Err(Diagnostic::error(text, given.position(TRANSIENT))
                     .help("TTRA_SET is part of TOBSERV, at its beginning"));
             }
             env.time = Some(TimeWindow {
@@ -368,14 +368,14 @@ fn sea(job: &Job, given: &Given) -> Outcome<SeaDefinition> {
     let name = given.word(NAME).unwrap_or_default();
     spectrum(job, given, spectra::NAMES)?;
     let [direction, height, period] = given.numbers_or_zero([DIRECTION, HEIGHT, PERIOD]);
-    let [at_direction, at_height, at_period] = [DIRECTION, HEIGHT, PERIOD].map(|key| given.place(key));
+    let [at_direction, at_height, at_period] = [DIRECTION, HEIGHT, PERIOD].map(|key| given.position(key));
     Ok(SeaDefinition {
         spectrum: name.to_string(),
         direction,
         height,
         period,
         shape: shape(name, (given.values_from(PARAMETERS), given.span), job.units)?,
-        places: [given.place(NAME), at_direction, at_height, at_period],
+        positions: [given.position(NAME), at_direction, at_height, at_period],
     })
 }
 
@@ -435,12 +435,12 @@ pub(crate) fn spectrum(job: &Job, given: &Given, known: &[&str]) -> Outcome<()> 
 
 pub(crate) fn known_curve(job: &Job, named: Option<&Value>, given: &Given, kind: CurveKind) -> Outcome<()> {
     let name = named.and_then(Value::word).unwrap_or_default();
-    let place = named.map_or(given.span, |value| value.span);
-    let curve = find(&job.model.curves, name, "curve", place)?;
+    let position = named.map_or(given.span, |value| value.span);
+    let curve = find(&job.model.curves, name, "curve", position)?;
     if curve.kind != kind {
         return Err(Diagnostic::error(
             format!("curve {name} is a {}, not a {}", curve.kind.name(), kind.name()),
-            place,
+            position,
         )
         .other(curve.span, "defined here"));
     }

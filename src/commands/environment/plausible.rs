@@ -104,7 +104,7 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
     };
     let Some(found) = found else {
         // the waves of a regular sea are made quickly
-        let error = Waves::new(model, env).err()?.diagnostic(sea.place(2), units);
+        let error = Waves::new(model, env).err()?.diagnostic(sea.position(2), units);
         return Some(Diagnostic { severity: Severity::Warning, ..*error });
     };
     let around = model.surroundings_in(env);
@@ -120,7 +120,7 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
             "a significant height of {height} with a peak period of {} breaks: the highest wave of that period here is 0.142 L tanh(k d) = {highest}",
             format_value(peak, Dim::Time, units)
         );
-        return Some(*Diagnostic::warning(text, sea.place(2)));
+        return Some(*Diagnostic::warning(text, sea.position(2)));
     }
     let (steepness, limit) = (TAU * sea.height / (around.gravity * peak * peak), steepest(peak));
     (steepness > limit).then(|| {
@@ -128,7 +128,7 @@ fn breaking(model: &Model, env: &Environment, sea: &SeaDefinition, units: UnitSy
             "a significant height of {height} with a peak period of {}: 2 pi HS/(g Tp2) is {steepness:.3}, and sea states have {limit:.3} at most (DNV-RP-C205 3.5.4)",
             format_value(peak, Dim::Time, units)
         );
-        *Diagnostic::warning(text, sea.place(2))
+        *Diagnostic::warning(text, sea.position(2))
     })
 }
 

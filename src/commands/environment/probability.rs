@@ -83,8 +83,8 @@ pub(crate) fn check(given: &Given) -> Outcome<()> {
     if let Some(first) = given.values.first().filter(|v| v.word().is_some_and(|word| evaluate(word).is_err())) {
         statistic(first)?;
     }
-    let place = given.place(DATA);
-    read(given).map(|_| ()).map_err(|text| Diagnostic::error(text, place))
+    let position = given.position(DATA);
+    read(given).map(|_| ()).map_err(|text| Diagnostic::error(text, position))
 }
 
 /// The extreme that the environment in force asks for, else `&DEFAULT`.

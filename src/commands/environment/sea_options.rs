@@ -100,12 +100,12 @@ fn components(given: &Given) -> Outcome<Components> {
     let limits = match (given.number(LOW), given.number(HIGH)) {
         (Some(low), Some(high)) if high > low => Some([low, high]),
         (Some(_), Some(_)) => {
-            return Err(Diagnostic::error("the highest frequency is not above the lowest", given.place(HIGH))
-                .other(given.place(LOW), "the lowest"));
+            return Err(Diagnostic::error("the highest frequency is not above the lowest", given.position(HIGH))
+                .other(given.position(LOW), "the lowest"));
         }
         (None, None) => None,
         _ => {
-            return Err(Diagnostic::error("a lowest frequency needs a highest one", given.place(LOW))
+            return Err(Diagnostic::error("a lowest frequency needs a highest one", given.position(LOW))
                 .help("form: -COMPONENTS N TYPE LOW HIGH"));
         }
     };

@@ -69,7 +69,7 @@ choices! {
 fn insert(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const FILE: DatumKey<str> = INSERT_SPEC.word("FILE");
     let name = call.args.word(FILE).unwrap_or_default();
-    let path = existing(job, name, call.args.place(FILE))?;
+    let path = existing(job, name, call.args.position(FILE))?;
     Ok(Effect::Insert { name: name.to_string(), path, tag: PLAIN })
 }
 
@@ -101,18 +101,18 @@ fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
         format!("{lower}.cif"),
     ];
     for candidate in candidates {
-        if let Ok(path) = existing(job, &candidate, call.args.place(NAME)) {
+        if let Ok(path) = existing(job, &candidate, call.args.position(NAME)) {
             return Ok(Effect::Insert { name: candidate, path, tag: PLAIN });
         }
     }
     if let Some(library) = LIBRARIES.iter().find(|library| library.name.eq_ignore_ascii_case(name)) {
         return Ok(Effect::Library { name: library.name, text: library.text });
     }
-    let place = call.args.place(NAME);
+    let position = call.args.position(NAME);
     if let Some((library, macros)) = absent::LIBRARIES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
         // each of its macros says what is lost where it is called
         let text = format!("library {library} of MOSES is not in windlass; scripts call {macros} of it");
-        job.remark(text, place);
+        job.remark(text, position);
         return Ok(Effect::Done);
     }
     let key = name.to_ascii_uppercase();
@@ -120,7 +120,7 @@ fn use_mac(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.missing_libraries.push(key);
     }
     let ours: Vec<&str> = LIBRARIES.iter().map(|library| library.name).collect();
-    Err(Diagnostic::error(format!("there is no macro library {name}"), place)
+    Err(Diagnostic::error(format!("there is no macro library {name}"), position)
         .label("looked for NAME, NAME.mac and NAME.cif beside the script")
         .help(format!("windlass ships with {}", ours.join(" ")))
         .help("an unknown record behind this is taken for a macro of it: solves will stop"))
@@ -188,7 +188,7 @@ fn file(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn not_open(job: &Job, name: &Word) -> Outcome<()> {
     let Ok(path) = job.output.folder.resolve(&name.text) else { return Ok(()) };
     let of = |file: &UserFile| match file {
-        UserFile::Writing { place, .. } => is_within(place.path(), &path),
+        UserFile::Writing { position, .. } => is_within(position.path(), &path),
         UserFile::Reading { path: read, .. } => is_within(read, &path),
     };
     match job.user_files.iter().find(|(_, file)| of(file)) {
@@ -213,12 +213,12 @@ pub fn to_diagnostic(error: &FileError, span: Span) -> Box<Diagnostic> {
 
 fn open(job: &mut Job, kind: &Word, name: &Word) -> Outcome<()> {
     write_unclosed(job, kind)?;
-    let place = job.output.folder.place(&name.text).map_err(|e| to_diagnostic(&e, name.span))?;
-    if let Some(other) = job.user_files.writing_at(place.path()) {
-        let text = format!("{} is open already, as type {other}", place.path().display());
+    let position = job.output.folder.position(&name.text).map_err(|e| to_diagnostic(&e, name.span))?;
+    if let Some(other) = job.user_files.writing_at(position.path()) {
+        let text = format!("{} is open already, as type {other}", position.path().display());
         return Err(Diagnostic::error(text, name.span));
     }
-    let file = UserFile::Writing { place, text: String::new(), opened: name.span };
+    let file = UserFile::Writing { position, text: String::new(), opened: name.span };
     job.user_files.insert(kind.text.to_ascii_uppercase(), file);
     Ok(())
 }
@@ -226,8 +226,8 @@ fn open(job: &mut Job, kind: &Word, name: &Word) -> Outcome<()> {
 /// Writes the file that this type still names, because the type gets another.
 fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
     let key = kind.text.to_ascii_uppercase();
-    if let Some(UserFile::Writing { place, text, opened }) = job.user_files.get(&key) {
-        let note = written_unclosed(&key, place, text, *opened)?;
+    if let Some(UserFile::Writing { position, text, opened }) = job.user_files.get(&key) {
+        let note = written_unclosed(&key, position, text, *opened)?;
         job.notices.push(*note);
         job.user_files.remove(&key);
     }
@@ -235,9 +235,9 @@ fn write_unclosed(job: &mut Job, kind: &Word) -> Outcome<()> {
 }
 
 /// Writes a file that was not closed; the note that says so.
-fn written_unclosed(kind: &str, place: &FilePlace, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
-    place.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, opened))?;
-    let note = format!("{} was not closed and is written as it stands", place.path().display());
+fn written_unclosed(kind: &str, position: &FilePlace, text: &str, opened: Span) -> Outcome<Box<Diagnostic>> {
+    position.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, opened))?;
+    let note = format!("{} was not closed and is written as it stands", position.path().display());
     Ok(Diagnostic::remark(note, opened).help(format!("&FILE CLOSE {kind} closes it")))
 }
 
@@ -247,8 +247,8 @@ pub fn write_open_files(job: &mut Job) -> Vec<Box<Diagnostic>> {
     files
         .iter()
         .filter_map(|(kind, file)| match file {
-            UserFile::Writing { place, text, opened } => {
-                Some(written_unclosed(kind, place, text, *opened).unwrap_or_else(|error| error))
+            UserFile::Writing { position, text, opened } => {
+                Some(written_unclosed(kind, position, text, *opened).unwrap_or_else(|error| error))
             }
             UserFile::Reading { .. } => None,
         })
@@ -277,8 +277,8 @@ fn close(job: &mut Job, name: &Word) -> Outcome<()> {
     let key = name.text.to_ascii_uppercase();
     match job.user_files.get(&key) {
         // a file that cannot be written now stays open, and is tried again at the end of the job
-        Some(UserFile::Writing { place, text, .. }) => {
-            place.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, name.span))?;
+        Some(UserFile::Writing { position, text, .. }) => {
+            position.write(text.as_bytes()).map_err(|e| to_diagnostic(&e, name.span))?;
         }
         Some(UserFile::Reading { .. }) => {}
         None => return Err(Diagnostic::error(format!("no file of type {} is open", name.text), name.span)),

@@ -53,7 +53,7 @@ choices! {
 fn extremes<'a>(
     model: &'a Model,
     parts: impl Iterator<Item = &'a Part>,
-    place: impl Fn(&Part, Position) -> Position,
+    position: impl Fn(&Part, Position) -> Position,
 ) -> Option<[f64; 6]> {
     let mut found: Option<[f64; 6]> = None;
     for part in parts {
@@ -63,7 +63,7 @@ fn extremes<'a>(
             [0, 1, 2, 3, 4, 5, 6, 7].map(|n| [0, 1, 2].map(|i| if n >> i & 1 == 0 { low[i] } else { high[i] }))
         });
         for at in points.chain(corners) {
-            let at = place(part, at);
+            let at = position(part, at);
             let so_far = found.get_or_insert([at[0], at[0], at[1], at[1], at[2], at[2]]);
             for (axis, value) in at.into_iter().enumerate() {
                 so_far[2 * axis] = so_far[2 * axis].min(value);
@@ -108,7 +108,7 @@ pub(super) fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
     let Some(name) = rest.first() else { return Err(Diagnostic::error("&BODY lacks the body's name", span)) };
     let found = find(&model.bodies, &name.text, "body", name.span)?;
     let key = Model::key(&found.name);
-    let pose = Pose::from_place(&found.place);
+    let pose = Pose::from_place(&found.position);
     let own_mass = || mass(job, model.parts_of(found), &found.name, name.span);
     let state = || -> Outcome<(Hydrostatics, bool)> {
         let hull = hull(job, found, name.span)?;
@@ -121,7 +121,7 @@ pub(super) fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
     Ok(match action_name {
         BodyAction::Current => String::new(),
         BodyAction::Location => {
-            let [x, y, z, roll, pitch, yaw] = found.place.values();
+            let [x, y, z, roll, pitch, yaw] = found.position.values();
             format!("{} {}", numbers(&[x, y, z], Dim::Length, job), numbers(&[roll, pitch, yaw], Dim::Angle, job))
         }
         BodyAction::Parts => {
@@ -134,7 +134,7 @@ pub(super) fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
         BodyAction::Weight => numbers(&[own_mass()?.mass * model.defaults.gravity], Dim::Force, job),
         BodyAction::CentreOfGravity => numbers(own_mass()?.centre.as_slice(), Dim::Length, job),
         BodyAction::Radii => numbers(&own_mass()?.radii().map(|k| k.unwrap_or(0.0)), Dim::Length, job),
-        BodyAction::Draft => numbers(&[0.0 - found.place.shift[2]], Dim::Length, job),
+        BodyAction::Draft => numbers(&[0.0 - found.position.shift[2]], Dim::Length, job),
         BodyAction::Displacement => match hull(job, found, name.span) {
             Ok(hull) => numbers(&[hull.wet(&pose).volume * hull.water_weight()], Dim::Force, job),
             Err(error) => return Err(error),
@@ -155,11 +155,11 @@ pub(super) fn body(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
             /// Deeper than any body is high (m).
             const DEEP: f64 = 1e6;
             let hull = hull(job, found, name.span)?;
-            let mut sunk = found.place;
+            let mut sunk = found.position;
             sunk.shift[2] = -DEEP;
             numbers(&[hull.wet(&Pose::from_place(&sunk)).volume * hull.water_weight()], Dim::Force, job)
         }
-        BodyAction::Extremes => extremes(model, model.parts_of(found), |part, at| part.place.apply(at))
+        BodyAction::Extremes => extremes(model, model.parts_of(found), |part, at| part.position.apply(at))
             .map_or(String::new(), |six| numbers(&six, Dim::Length, job)),
     })
 }
@@ -178,7 +178,7 @@ pub(super) fn part(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outco
         PartAction::Current => String::new(),
         PartAction::Body => found.body.clone(),
         PartAction::Location => {
-            let [x, y, z, roll, pitch, yaw] = found.place.values();
+            let [x, y, z, roll, pitch, yaw] = found.position.values();
             format!("{} {}", numbers(&[x, y, z], Dim::Length, job), numbers(&[roll, pitch, yaw], Dim::Angle, job))
         }
         PartAction::Points => {

@@ -73,14 +73,14 @@ pub(super) fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outc
         PointAction::Coordinates => {
             let Some(found) = find_point(job, rest.first()) else { return Ok(String::new()) };
             let system = rest.get(1).map(|w| w.text.to_ascii_uppercase()).unwrap_or_default();
-            let place = if !system.is_empty() && "-GLOBAL".starts_with(&system) {
+            let position = if !system.is_empty() && "-GLOBAL".starts_with(&system) {
                 model.global(found)
             } else if !system.is_empty() && "-BODY".starts_with(&system) {
-                model.parts.get(&Model::key(&found.part)).map_or(found.at, |p| p.place.apply(found.at))
+                model.parts.get(&Model::key(&found.part)).map_or(found.at, |p| p.position.apply(found.at))
             } else {
                 found.at
             };
-            numbers(&place, Dim::Length, job)
+            numbers(&position, Dim::Length, job)
         }
         PointAction::Distance => {
             at(0).zip(at(1)).map_or(String::new(), |(a, b)| numbers(&[distance(a, b)], Dim::Length, job))
@@ -144,7 +144,7 @@ pub(super) fn point(job: &Job, action: &Word, rest: &[Word], span: Span) -> Outc
             };
             let set = find(&model.assemblies, &name.text, "assembly", name.span)?;
             match (&set.kind, model.bodies.get(&Model::key(&set.name))) {
-                (AssemblyKind::TipHook { .. }, Some(hook)) => numbers(&hook.place.shift, Dim::Length, job),
+                (AssemblyKind::TipHook { .. }, Some(hook)) => numbers(&hook.position.shift, Dim::Length, job),
                 _ => return Err(Diagnostic::error(format!("{} is no tip-hook set", set.name), name.span)),
             }
         }

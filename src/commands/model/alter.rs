@@ -314,9 +314,9 @@ fn change(model: &Model, made: &mut Connector, given: &Given, said: &mut Said) -
             if distance < 0.0 {
                 return Err(ClassError::new("the anchor would lie beyond the fairlead, against its direction"));
             }
-            let place = model.placement(made);
-            let [x, y, _] = place.fairlead;
-            let (apart, along) = place.span();
+            let position = model.placement(made);
+            let [x, y, _] = position.fairlead;
+            let (apart, along) = position.span();
             let (cos, sin) = unit_vector(anchor.direction);
             let [ux, uy] = if apart > 0.0 { along } else { [cos, sin] };
             move_anchor(model, made, [x + distance * ux, y + distance * uy]);

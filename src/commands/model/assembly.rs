@@ -144,8 +144,8 @@ pub fn build_assembly(job: &mut Job, args: &Args) -> Outcome<()> {
 fn build_line(job: &mut Job, args: &Args, is_winch: bool) -> Outcome<()> {
     let model = &job.model;
     let name = args.word(NAME).unwrap_or_default().to_string();
-    name_rule::check(&name, None, "assembly", args.place(NAME))?;
-    model.free_name(&name, &[], args.place(NAME))?;
+    name_rule::check(&name, None, "assembly", args.position(NAME))?;
+    model.free_name(&name, &[], args.position(NAME))?;
     let mut line: Vec<&Connector> = Vec::new();
     for value in args.data_after(NAME).iter().filter(|value| value.is_given()) {
         let connector = span(model, value.word().unwrap_or_default(), value.span)?;
@@ -176,9 +176,9 @@ fn build_line(job: &mut Job, args: &Args, is_winch: bool) -> Outcome<()> {
     let made = job.model.connectors.get(&Model::key(&first)).map(|c| job.model.element(c));
     if let Some(Err(error)) = made {
         job.model.assemblies.shift_remove(&Model::key(&name));
-        return Err(error.diagnostic(args.place(NAME), job.units));
+        return Err(error.diagnostic(args.position(NAME), job.units));
     }
-    job.note_name(&name, args.place(NAME));
+    job.note_name(&name, args.position(NAME));
     Ok(())
 }
 
@@ -221,10 +221,10 @@ fn read_drum(job: &Job, args: &Args) -> Outcome<Drum> {
     if let Some(given) = args.option(&VELOCITY) {
         const CURVE: ValueKey<str> = VELOCITY.word("CURVE");
         let name = given.word(CURVE).unwrap_or_default();
-        let curve = find(&job.model.curves, name, "curve", given.place(CURVE))?;
+        let curve = find(&job.model.curves, name, "curve", given.position(CURVE))?;
         if curve.kind != CurveKind::LoadMultiplier {
             let text = format!("curve {} is a {}, and -VELOCITY takes a LT_MULTIPLIER", curve.name, curve.kind.name());
-            return Err(Diagnostic::error(text, given.place(CURVE)).other(curve.span, "defined here"));
+            return Err(Diagnostic::error(text, given.position(CURVE)).other(curve.span, "defined here"));
         }
         let factor = given.number(const { VELOCITY.number("MULT") }).unwrap_or_default();
         drum.control = DrumControl::Curve { name: curve.name.clone(), factor, bound: None };
@@ -283,7 +283,7 @@ pub fn govern_drum(model: &mut Model, name: &Value, given: &Given, units: UnitSy
 fn build_tip_hook(job: &mut Job, args: &Args) -> Outcome<()> {
     let model = &job.model;
     let name = args.word(NAME).unwrap_or_default().to_string();
-    junction::free(model, &name, "assembly", args.place(NAME))?;
+    junction::free(model, &name, "assembly", args.position(NAME))?;
     if let Some(extra) = args.data_after(BOOM).get(MAX_SLINGS) {
         return Err(Diagnostic::error(format!("a hook takes at most {MAX_SLINGS} slings"), extra.span));
     }
@@ -330,7 +330,7 @@ fn build_tip_hook(job: &mut Job, args: &Args) -> Outcome<()> {
         }
     }
     let model = &mut job.model;
-    junction::insert(model, &name, hook.into(), [0.0; 2], args.place(NAME));
+    junction::insert(model, &name, hook.into(), [0.0; 2], args.position(NAME));
     for member in std::iter::once(&boom).chain(&slings) {
         if let Some(connector) = model.connectors.get_mut(&Model::key(member)) {
             connector.points.push(format!("*{name}"));
@@ -338,7 +338,7 @@ fn build_tip_hook(job: &mut Job, args: &Args) -> Outcome<()> {
     }
     let kind = AssemblyKind::TipHook { boom, slings };
     model.assemblies.insert(Model::key(&name), Assembly { name: name.clone(), kind, span: args.span });
-    job.note_name(&name, args.place(NAME));
+    job.note_name(&name, args.position(NAME));
     Ok(())
 }
 
@@ -379,7 +379,7 @@ fn one_body<'a>(model: &'a Model, boom: &Connector, slings: &[&Connector], args:
     let found = found.ok_or_else(|| Diagnostic::error("a hook needs a sling", args.span))?;
     if body_of(model, boom).is_some_and(|b| b.name == found.name) {
         let text = format!("{} is on {} as the slings are: a body cannot lift itself", boom.name, found.name);
-        return Err(Diagnostic::error(text, args.place(BOOM)));
+        return Err(Diagnostic::error(text, args.position(BOOM)));
     }
     Ok(found)
 }

@@ -114,7 +114,7 @@ fn combine_all(job: &mut Job, call: &Call, how: Operation) -> Outcome<Effect> {
     let mut blocks = call.args.data_after(NEW_NAME).iter().filter_map(named);
     let Some(first) = blocks.next() else { return Ok(Effect::Done) };
     let rest: Vec<(Operation, Named)> = blocks.map(|block| (how, block)).collect();
-    let made = (call.args.word(NEW_NAME).unwrap_or_default().to_string(), call.args.place(NEW_NAME));
+    let made = (call.args.word(NEW_NAME).unwrap_or_default().to_string(), call.args.position(NEW_NAME));
     combine(job, made, first, &rest)
 }
 
@@ -226,19 +226,19 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const NAME: DatumKey<str> = RENAME_SPEC.word("NAME");
     const NEW_NAME: DatumKey<str> = RENAME_SPEC.word("NEW");
-    let old = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
-    refuse_element(&old, args.place(NAME))?;
+    let old = known_piece(job, args.word(NAME).unwrap_or_default(), args.position(NAME))?;
+    refuse_element(&old, args.position(NAME))?;
     let new = args.word(NEW_NAME).unwrap_or_default();
-    rule::check(new, None, "piece", args.place(NEW_NAME))?;
+    rule::check(new, None, "piece", args.position(NEW_NAME))?;
     if let Some((_, taken)) = job.model.piece(new) {
-        return Err(Diagnostic::error(format!("piece {} exists already", taken.name), args.place(NEW_NAME))
+        return Err(Diagnostic::error(format!("piece {} exists already", taken.name), args.position(NEW_NAME))
             .other(taken.span, "defined here"));
     }
-    job.model.free_name(new, &[EntityKind::Body, EntityKind::Part], args.place(NEW_NAME))?;
+    job.model.free_name(new, &[EntityKind::Body, EntityKind::Part], args.position(NEW_NAME))?;
     if let Some(piece) = job.model.piece_mut(&old.name) {
         piece.name = new.to_string();
     }
-    job.note_name(new, args.place(NEW_NAME));
+    job.note_name(new, args.position(NEW_NAME));
     Ok(Effect::Done)
 }
 
@@ -290,16 +290,16 @@ fn tubtank(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const THICKNESS: DatumKey<f64> = TUBTANK_SPEC.number("THICKNESS");
     let part = piece::current_part(&job.model, args.span)?;
     let end = |key: DatumKey<str>| {
-        piece::point_in_part(&job.model, args.word(key).unwrap_or_default(), part, args.place(key))
+        piece::point_in_part(&job.model, args.word(key).unwrap_or_default(), part, args.position(key))
     };
     let ends = [end(const { TUBTANK_SPEC.word("*P1") })?, end(SECOND)?];
     if ends[0] == ends[1] {
-        return Err(Diagnostic::error("a TUBTANK needs two points at different places", args.place(SECOND)));
+        return Err(Diagnostic::error("a TUBTANK needs two points at different places", args.position(SECOND)));
     }
     let outer = args.number(const { TUBTANK_SPEC.number("DIAMETER") }).unwrap_or_default();
     let diameter = outer - 2.0 * args.number(THICKNESS).unwrap_or_default();
     if diameter <= 0.0 {
-        return Err(Diagnostic::error("the wall leaves no space within the diameter", args.place(THICKNESS)));
+        return Err(Diagnostic::error("the wall leaves no space within the diameter", args.position(THICKNESS)));
     }
     let name = piece::free_piece_name(&job.model);
     let piece = piece::begin_piece(job, args, &name, args.span, Shape::Tube { ends, diameter })?;

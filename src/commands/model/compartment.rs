@@ -436,7 +436,7 @@ fn share(job: &Job, key: &str, given: &Given, amount: f64, density: Option<f64>,
 /// Where the body of a compartment stands.
 pub fn pose_of(model: &Model, compartment: &Compartment) -> Pose {
     let body = model.parts.get(&Model::key(&compartment.part)).and_then(|p| model.bodies.get(&Model::key(&p.body)));
-    body.map(|b| Pose::from_place(&b.place)).unwrap_or_default()
+    body.map(|b| Pose::from_place(&b.position)).unwrap_or_default()
 }
 
 static BALANCE_SPEC: CommandSpec = CommandSpec {
@@ -461,7 +461,7 @@ fn balance(job: &mut Job, call: &Call) -> Outcome<Effect> {
     piece::finish_piece(job);
     let args = &call.args;
     let to_error = |job: &Job, e: windlass_model::ClassError| e.diagnostic(args.span, job.units);
-    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?.clone();
+    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.position(BODY))?.clone();
     job.model.check_effects(SolveKind::Statics).map_err(|e| to_error(job, e))?;
     let mut keys: Vec<String> = Vec::new();
     for value in args.data_after(BODY) {
@@ -490,7 +490,7 @@ fn balance(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
     }
     let floating = Floating::at_rest(&without, &body).map_err(|e| to_error(job, e))?;
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let still = [Category::Weight, Category::Contents, Category::Buoyancy];
     let mut rest = Six::zeros();
     for load in floating.loads.iter().filter(|load| still.contains(&load.category())) {

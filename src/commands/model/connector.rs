@@ -88,7 +88,7 @@ const NAME: DatumKey<str> = CONNECTOR_SPEC.word("NAME");
 const CLASS: DatumKey<str> = CONNECTOR_SPEC.word("~CLASS");
 
 fn connector(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    rule::check(call.args.word(NAME).unwrap_or_default(), None, "connector", call.args.place(NAME))?;
+    rule::check(call.args.word(NAME).unwrap_or_default(), None, "connector", call.args.position(NAME))?;
     if matches!(job.menu(), Menu::Inmodel) {
         job.deferred.push(call.args.clone());
         return Ok(Effect::Done);
@@ -107,18 +107,18 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     if let Some(effect) = job.absent_classes.get(&class).filter(|_| !job.model.classes.contains_key(&class)) {
         let record = format!("CONNECTOR {name} of class {}", args.word(CLASS).unwrap_or_default());
         let effect = effect.unwrap_or("what a connector of structural sections does").to_string();
-        let (matters_to, span) = (SolveKind::Statics, args.place(CLASS));
+        let (matters_to, span) = (SolveKind::Statics, args.position(CLASS));
         job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
         return Ok(());
     }
     let model = &job.model;
     if let Some(old) = model.connectors.get(&Model::key(name)) {
-        return Err(Diagnostic::error(format!("connector {name} exists already"), args.place(NAME))
+        return Err(Diagnostic::error(format!("connector {name} exists already"), args.position(NAME))
             .other(old.span, "defined here")
             .help(format!("DELETE {name} first, or use another name")));
     }
-    model.free_name(name, &[], args.place(NAME))?;
-    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.place(CLASS))?;
+    model.free_name(name, &[], args.position(NAME))?;
+    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.position(CLASS))?;
     let mut points = Vec::new();
     let mut on_bodies = 0;
     for value in args.data_after(CLASS) {
@@ -167,9 +167,11 @@ pub fn build_connector(job: &mut Job, args: &Args) -> Outcome<()> {
     class.object.check_ends(&made, on_bodies)?;
     if made.tether.is_some() && class.tether_sections().is_empty() {
         let text = format!("{} is of class type {}, which is no tether", made.class, class.object.kind());
-        return Err(Diagnostic::error(text, args.place(CLASS)).help("the options of tethers go with class type TETHER"));
+        return Err(
+            Diagnostic::error(text, args.position(CLASS)).help("the options of tethers go with class type TETHER")
+        );
     }
-    let span = args.place(NAME);
+    let span = args.position(NAME);
     let held = |point: &Point| model.body_of(point).map_or("ground", |b| b.name.as_str()).to_string();
     if let [first, second] = points.as_slice()
         && held(first) == held(second)

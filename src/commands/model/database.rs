@@ -191,7 +191,7 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
-    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
+    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.position(BODY))?;
     let name = body.name.clone();
     let weight = Mass::from_parts(job.model.parts_of(body), job.model.defaults.gravity);
     let (source, mut data) = read(job, args)?;

@@ -247,11 +247,11 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
     ) {
         return Err(Diagnostic::error(
             format!("&DESCRIBE {} lacks its value NAME", described.word()),
-            args.place(KIND),
+            args.position(KIND),
         ));
     }
     let name = args.word(NAME).map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
-    let (key, span) = (Model::key(&name), args.place(NAME));
+    let (key, span) = (Model::key(&name), args.position(NAME));
     let kind = match args.choice(KIND) {
         Some(Described::Body) => PartKind::Body,
         Some(Described::Part) => PartKind::Part,
@@ -337,12 +337,12 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
             if model.bodies.values().filter(|b| b.junction.is_none()).count() >= MAX_BODIES {
                 return Err(Diagnostic::error(format!("a model has at most {MAX_BODIES} bodies"), span));
             }
-            let place = Place::default();
+            let position = Place::default();
             let (junction, linear) = (None, None);
             let body = Body {
                 name: name.clone(),
-                place,
-                previous: place,
+                position,
+                previous: position,
                 ignored: Vec::new(),
                 junction,
                 linear,
@@ -351,15 +351,15 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 span,
             };
             model.bodies.insert(key.clone(), body);
-            model.parts.insert(key.clone(), Part::new(&name, &name, place, span));
+            model.parts.insert(key.clone(), Part::new(&name, &name, position, span));
         }
         if let (Some(given), Some(body)) = (args.option(&IGNORE), model.bodies.get_mut(&key)) {
             body.ignored = given.choices(const { IGNORE.choice("DOF") }).collect();
         }
     } else {
-        let place = args.option(&MOVE).map(|g| Place::new(g.numbers_or_zero(const { MOVE.numbers(PLACE_NAMES) })));
+        let position = args.option(&MOVE).map(|g| Place::new(g.numbers_or_zero(const { MOVE.numbers(PLACE_NAMES) })));
         match model.parts.get_mut(&key) {
-            Some(part) => part.place = place.unwrap_or(part.place),
+            Some(part) => part.position = position.unwrap_or(part.position),
             None => {
                 let body = model
                     .current_part
@@ -367,7 +367,7 @@ fn describe(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     .and_then(|p| model.parts.get(&Model::key(p)))
                     .map(|p| p.body.clone())
                     .ok_or_else(|| Diagnostic::error("a part belongs to a body, and none is described yet", span))?;
-                model.parts.insert(key, Part::new(&name, &body, place.unwrap_or_default(), span));
+                model.parts.insert(key, Part::new(&name, &body, position.unwrap_or_default(), span));
             }
         }
     }
@@ -435,7 +435,7 @@ fn interest(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let associated = args.option(&ASSOCIATE).map_or(&[][..], |given| &given.values);
     let values: Vec<&Value> = named.chain(associated).collect();
     if values.is_empty() {
-        return Err(Diagnostic::error("INTEREST lacks its points", args.place(KIND))
+        return Err(Diagnostic::error("INTEREST lacks its points", args.position(KIND))
             .help("form: &DESCRIBE INTEREST *PT .. or &DESCRIBE INTEREST -ASSOCIATE :SEL .."));
     }
     let marked: Vec<(String, Position)> = {
@@ -471,7 +471,7 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let ((cos, sin), (flat, up)) = (direction(b), direction(c));
             [a * flat * cos, a * flat * sin, a * up]
         }
-        Coordinates::Placed(place) => place.apply(at),
+        Coordinates::Placed(position) => position.apply(at),
     };
     let part = job.model.current_part.clone().unwrap_or_else(|| GROUND.to_string());
     let key = Model::key(&name.text);
@@ -494,15 +494,15 @@ fn point(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// Moves the body of a point until the point stands at the coordinates given.
 fn move_point(model: &mut Model, given: &Given) -> Outcome<()> {
     const POINT: ValueKey<str> = TO_POINT.word("*PT");
-    let place = given.place(POINT);
-    let point = find(&model.points, given.word(POINT).unwrap_or_default(), "point", place)?;
+    let position = given.position(POINT);
+    let point = find(&model.points, given.word(POINT).unwrap_or_default(), "point", position)?;
     let now = model.global(point);
     let body = model.body_of(point).map(|b| Model::key(&b.name));
-    let wrong = || Diagnostic::error(format!("{} is on no body", point.name), place);
+    let wrong = || Diagnostic::error(format!("{} is on no body", point.name), position);
     let body = body.ok_or_else(wrong)?;
     let wanted = const { TO_POINT.numbers(["X", "Y", "Z"]) }.map(|key| given.number(key));
     if let Some(body) = model.bodies.get_mut(&body) {
-        for ((shift, now), wanted) in body.place.shift.iter_mut().zip(now).zip(wanted) {
+        for ((shift, now), wanted) in body.position.shift.iter_mut().zip(now).zip(wanted) {
             *shift += wanted.map_or(0.0, |wanted| wanted - now);
         }
     }
@@ -511,14 +511,14 @@ fn move_point(model: &mut Model, given: &Given) -> Outcome<()> {
 
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let model = &mut job.model;
-    let before: Vec<Place> = model.bodies.values().map(|b| b.place).collect();
+    let before: Vec<Place> = model.bodies.values().map(|b| b.position).collect();
     if let (Some(given), true) = (call.args.option(&PREVIOUS), call.args.options.len() > 1) {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
         let body = || -> Outcome<String> {
             let named = given.first_word().map(|name| (name, given.first_place()));
-            let own = call.args.word(INSTATE_BODY).map(|name| (name, call.args.place(INSTATE_BODY)));
+            let own = call.args.word(INSTATE_BODY).map(|name| (name, call.args.position(INSTATE_BODY)));
             match named.or(own) {
                 Some((name, span)) => find(&model.bodies, name, "body", span).map(|b| Model::key(&b.name)),
                 None => model.current_body().map(|b| Model::key(&b.name)).ok_or_else(|| {
@@ -529,7 +529,7 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
         match given {
             _ if given.is(&PREVIOUS) => {
                 for body in model.bodies.values_mut() {
-                    std::mem::swap(&mut body.place, &mut body.previous);
+                    std::mem::swap(&mut body.position, &mut body.previous);
                 }
                 return Ok(Effect::Done);
             }
@@ -551,24 +551,24 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 let key = body()?;
                 let [draft, roll, trim] = given.numbers_or_zero(const { CONDITION.numbers(["DRAFT", "ROLL", "TRIM"]) });
                 if let Some(body) = model.bodies.get_mut(&key) {
-                    body.place.shift[2] = -draft;
-                    body.place.turn = [roll, trim, body.place.turn[2]];
+                    body.position.shift[2] = -draft;
+                    body.position.turn = [roll, trim, body.position.turn[2]];
                 }
             }
             _ => {
                 // -MOVE of a body has the values of -LOCATE
-                let place = Place::new(given.numbers_or_zero(const { LOCATE.numbers(PLACE_NAMES) }));
+                let position = Place::new(given.numbers_or_zero(const { LOCATE.numbers(PLACE_NAMES) }));
                 let key = body()?;
                 if let Some(body) = model.bodies.get_mut(&key) {
-                    let values = body.place.values();
-                    let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + place.values()[i]);
-                    body.place = if given.is(&LOCATE) { place } else { Place::new(moved) };
+                    let values = body.position.values();
+                    let moved = [0, 1, 2, 3, 4, 5].map(|i| values[i] + position.values()[i]);
+                    body.position = if given.is(&LOCATE) { position } else { Place::new(moved) };
                 }
             }
         }
     }
-    for (body, place) in model.bodies.values_mut().zip(before) {
-        body.previous = place;
+    for (body, position) in model.bodies.values_mut().zip(before) {
+        body.previous = position;
     }
     Ok(Effect::Done)
 }

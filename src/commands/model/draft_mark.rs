@@ -17,12 +17,12 @@ use windlass_model::{DraftMark, EntityKind, Model, find};
 ///
 /// # Errors
 /// A name that cannot be one or is taken, other than two points, points of no body or of two.
-pub(super) fn describe(job: &mut Job, name: &str, place: Span, points: &[Value]) -> Outcome<()> {
+pub(super) fn describe(job: &mut Job, name: &str, position: Span, points: &[Value]) -> Outcome<()> {
     let model = &mut job.model;
-    rule::check(name, None, "draft mark", place)?;
-    model.free_name(name, &[EntityKind::DraftMark], place)?;
+    rule::check(name, None, "draft mark", position)?;
+    model.free_name(name, &[EntityKind::DraftMark], position)?;
     let [first, second] = points else {
-        return Err(Diagnostic::error("DMARK takes two points", place).help("form: &DESCRIBE DMARK NAME *PT1 *PT2"));
+        return Err(Diagnostic::error("DMARK takes two points", position).help("form: &DESCRIBE DMARK NAME *PT1 *PT2"));
     };
     let on_body = |value: &Value| -> Outcome<(String, String)> {
         let point = find(&model.points, value.word().unwrap_or_default(), "point", value.span)?;
@@ -37,9 +37,9 @@ pub(super) fn describe(job: &mut Job, name: &str, place: Span, points: &[Value])
     if Model::key(&a) == Model::key(&b) {
         return Err(Diagnostic::error("a draft mark runs between two points", second.span));
     }
-    let mark = DraftMark { name: name.to_string(), points: [a, b], span: place };
+    let mark = DraftMark { name: name.to_string(), points: [a, b], span: position };
     model.draft_marks.insert(Model::key(name), mark);
-    job.note_name(name, place);
+    job.note_name(name, position);
     Ok(())
 }
 
@@ -67,7 +67,7 @@ pub(super) fn set_drafts(model: &mut Model, given: &Given) -> Outcome<()> {
     let mut asked: Vec<(DraftMark, f64, Span)> = Vec::new();
     for pair in given.groups() {
         const MARK: ValueKey<str> = DRAFT.word("DMARK");
-        let (name, span) = (pair.word(MARK).unwrap_or_default(), pair.place(MARK));
+        let (name, span) = (pair.word(MARK).unwrap_or_default(), pair.position(MARK));
         let mark = find(&model.draft_marks, name, "draft mark", span)?;
         asked.push((mark.clone(), pair.number(const { DRAFT.number("DRAFT") }).unwrap_or_default(), span));
     }
@@ -95,9 +95,9 @@ pub(super) fn set_drafts(model: &mut Model, given: &Given) -> Outcome<()> {
     let shift = |model: &mut Model, unknown: Unknown, by: f64| {
         if let Some(body) = model.bodies.get_mut(&body) {
             match unknown {
-                Unknown::Height => body.place.shift[2] += by,
-                Unknown::Roll => body.place.turn[0] += by,
-                Unknown::Trim => body.place.turn[1] += by,
+                Unknown::Height => body.position.shift[2] += by,
+                Unknown::Roll => body.position.turn[0] += by,
+                Unknown::Trim => body.position.turn[1] += by,
             }
         }
     };
@@ -116,7 +116,7 @@ pub(super) fn set_drafts(model: &mut Model, given: &Given) -> Outcome<()> {
         let now = errors(&trial)?;
         if now.amax() <= TOLERANCE_M {
             if let (Some(found), Some(moved)) = (model.bodies.get_mut(&body), trial.bodies.get(&body)) {
-                found.place = moved.place;
+                found.position = moved.position;
             }
             return Ok(());
         }

@@ -266,8 +266,8 @@ fn coefficients(parameters: &Parameters) -> MemberCoefficients {
 fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: [&Value; 2]) -> Outcome<()> {
     let part = part_of(&job.model, nodes[0])?;
     let at = |node: &Value| -> Outcome<Vector3<f64>> {
-        let place = piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span)?;
-        Ok(place.into())
+        let position = piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span)?;
+        Ok(position.into())
     };
     let ends = [at(nodes[0])?, at(nodes[1])?];
     let Some(class) = class_of(job, of.class)? else {
@@ -282,7 +282,7 @@ fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: 
     if let Some(value) = in_force(args, &REFN, of.index).and_then(|given| given.values.first()) {
         directions[0] = (at(value)? - ends[0]).into();
     }
-    let place = BeamPlace {
+    let position = BeamPlace {
         ends,
         directions,
         turn: in_force(args, &CHORD_ANGLE, of.index).and_then(Given::first_number).unwrap_or(0.0),
@@ -295,7 +295,7 @@ fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: 
     }
     let unread = sections.iter().find_map(|section| section.unread);
     let water = job.model.surroundings().water_weight();
-    let built = build_beam(sections, &place, &coefficients(&record.parameters), water)
+    let built = build_beam(sections, &position, &coefficients(&record.parameters), water)
         .map_err(|error| error.with_subject("the beam").diagnostic(nodes[1].span, job.units))?;
     let (part, class) = (Model::key(&part.name), class.name.clone());
     if let Some(offset) = [GOA, GOB].iter().find_map(|option| in_force(args, option, of.index)) {
@@ -313,8 +313,9 @@ fn make_beam(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: 
 fn make_plate(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes: &[&Value]) -> Outcome<()> {
     let Some(first) = nodes.first() else { return Ok(()) };
     let part = part_of(&job.model, first)?;
-    let place = |node: &&Value| piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span);
-    let corners: Vec<Vector3<f64>> = nodes.iter().map(|node| place(node).map(Vector3::from)).collect::<Outcome<_>>()?;
+    let position = |node: &&Value| piece::point_in_part(&job.model, node.word().unwrap_or_default(), part, node.span);
+    let corners: Vec<Vector3<f64>> =
+        nodes.iter().map(|node| position(node).map(Vector3::from)).collect::<Outcome<_>>()?;
     let Some(class) = class_of(job, of.class)? else {
         keep_missing(job, &of, "PLATE");
         return Ok(());

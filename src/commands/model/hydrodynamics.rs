@@ -231,13 +231,13 @@ pub(super) fn settle_pressure(model: &mut Model, body: &str) {
 fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = PRESSURE_SPEC.word("BODY");
     let (args, span) = (&call.args, call.args.span);
-    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.place(NAME))?;
+    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
     let (name, has_database) = (body.name.clone(), body.database.is_some());
     let given = |option: &OptionSpec| args.option(option).map(Given::numbers).filter(|list| !list.is_empty());
     let (headings, periods) = (given(&HEADING), given(&PERIOD));
     if let Some(list) = periods.as_ref().filter(|list| list.len() > MAX_PERIODS) {
-        let place = args.option(&PERIOD).map_or(span, |given| given.span);
-        return Err(Diagnostic::error(format!("{} periods; at most {MAX_PERIODS} are taken", list.len()), place));
+        let position = args.option(&PERIOD).map_or(span, |given| given.span);
+        return Err(Diagnostic::error(format!("{} periods; at most {MAX_PERIODS} are taken", list.len()), position));
     }
     let defaults = &mut job.model.wave_defaults;
     defaults.headings = headings.unwrap_or_else(|| std::mem::take(&mut defaults.headings));
@@ -287,7 +287,7 @@ fn total(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = TOTAL_SPEC.word("BODY");
     const PACKET: DatumKey<str> = TOTAL_SPEC.word("PKT_NAME");
     let args = &call.args;
-    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.place(NAME))?;
+    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
     let made = TotalData {
         body: body.name.clone(),
         name: args.word(PACKET).unwrap_or_default().to_string(),
@@ -353,8 +353,8 @@ fn numbers(args: &Args, values: &[Value], count: usize) -> Outcome<Vec<f64>> {
     if list.len() == count {
         return Ok(list);
     }
-    let place = values.last().map_or(args.span, |value| value.span);
-    Err(Diagnostic::error(format!("{} values; {count} are expected", list.len()), place))
+    let position = values.last().map_or(args.span, |value| value.span);
+    Err(Diagnostic::error(format!("{} values; {count} are expected", list.len()), position))
 }
 
 /// The dimension of an entry of added mass as a weight, or of damping.
@@ -422,8 +422,9 @@ pub fn finish_total(job: &mut Job, data: TotalData, at: Option<Span>) -> Vec<Dia
 
 fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
     let around = job.model.surroundings();
-    let place = Place { shift: [0.0; 3], turn: data.turn };
-    let axes = TypedAxes { reference: Vector3::from(data.origin), axes: *place.rotation().matrix(), yaw: data.turn[2] };
+    let position = Place { shift: [0.0; 3], turn: data.turn };
+    let axes =
+        TypedAxes { reference: Vector3::from(data.origin), axes: *position.rotation().matrix(), yaw: data.turn[2] };
     let source = if data.name.is_empty() { "I_TOTAL".to_string() } else { format!("I_TOTAL {}", data.name) };
     let made = typed::build(&source, &axes, &data.periods, &around);
     let made = made.map_err(|e| Diagnostic::error(e.to_string(), data.span))?;
@@ -440,9 +441,9 @@ fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
 
 /// A body that has a database.
 fn find_database<'j>(job: &'j Job, args: &Args, key: DatumKey<str>) -> Outcome<(&'j Body, &'j AttachedDatabase)> {
-    let body = find(&job.model.bodies, args.word(key).unwrap_or_default(), "body", args.place(key))?;
+    let body = find(&job.model.bodies, args.word(key).unwrap_or_default(), "body", args.position(key))?;
     let attached = body.database.as_ref().ok_or_else(|| {
-        Diagnostic::error(format!("{} has no database", body.name), args.place(key))
+        Diagnostic::error(format!("{} has no database", body.name), args.position(key))
             .help("DATABASE reads one, I_TOTAL .. END_I_TOTAL gives one by records")
     })?;
     Ok((body, attached))
@@ -455,7 +456,10 @@ fn export(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (body, attached) = find_database(job, args, NAME)?;
     let data = &attached.data;
     if data.added_mass.is_empty() && data.excitation.is_empty() {
-        return Err(Diagnostic::error(format!("the database of {} holds motions alone", body.name), args.place(NAME)));
+        return Err(Diagnostic::error(
+            format!("the database of {} holds motions alone", body.name),
+            args.position(NAME),
+        ));
     }
     let [x, y, z]: [f64; 3] = data.reference.into();
     let lengths = [x, y, z].map(|x| Dim::Length.from_si(x, units));
@@ -500,7 +504,7 @@ fn export(job: &mut Job, call: &Call) -> Outcome<Effect> {
     .into_iter()
     .filter_map(|(is_lost, what)| is_lost.then_some(what))
     .collect();
-    write_file(job, &file, text.as_bytes(), args.place(FILE))?;
+    write_file(job, &file, text.as_bytes(), args.position(FILE))?;
     if !lost.is_empty() {
         job.warn(format!("{file} has no records of {}", lost.join(", ")), args.span);
     }
@@ -520,7 +524,10 @@ fn show_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (body, attached) = find_database(job, &call.args, NAME)?;
     let data = &attached.data;
     if data.added_mass.is_empty() {
-        return Err(Diagnostic::error(format!("the database of {} has no matrices", body.name), call.args.place(NAME)));
+        return Err(Diagnostic::error(
+            format!("the database of {} has no matrices", body.name),
+            call.args.position(NAME),
+        ));
     }
     let gravity = job.model.defaults.gravity;
     let mut table = Table::new(format!("Added Mass and Damping of {}", body.name));
@@ -549,7 +556,7 @@ fn show_forces(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = FORCES_SPEC.word("BODY");
     let (body, attached) = find_database(job, &call.args, NAME)?;
     let table = database_table::excitation(body, attached).ok_or_else(|| {
-        Diagnostic::error(format!("the database of {} has no exciting forces", body.name), call.args.place(NAME))
+        Diagnostic::error(format!("the database of {} has no exciting forces", body.name), call.args.position(NAME))
     })?;
     Ok(dispose(job, table))
 }
@@ -558,7 +565,7 @@ fn show_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = DRIFT_SPEC.word("BODY");
     let (body, attached) = find_database(job, &call.args, NAME)?;
     let table = database_table::drift(body, attached).ok_or_else(|| {
-        Diagnostic::error(format!("the database of {} has no mean drift", body.name), call.args.place(NAME))
+        Diagnostic::error(format!("the database of {} has no mean drift", body.name), call.args.position(NAME))
             .help("#DRIFT gives it by records; DATABASE reads it from the files of WAMIT, NEMOH, Capytaine and AQWA")
     })?;
     Ok(dispose(job, table))

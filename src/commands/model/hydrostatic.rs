@@ -84,10 +84,13 @@ const DIAGONAL: [Option<DatumKey<f64>>; 6] =
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let model = &job.model;
-    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.place(POINT))?;
+    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.position(POINT))?;
     let body = model.body_of(point).ok_or_else(|| {
-        Diagnostic::error(format!("{} is a point of the ground, which does not float", point.name), args.place(POINT))
-            .other(point.span, "defined here")
+        Diagnostic::error(
+            format!("{} is a point of the ground, which does not float", point.name),
+            args.position(POINT),
+        )
+        .other(point.span, "defined here")
     })?;
     let lacking = [BUOYANCY, ZCGE].into_iter().find(|option| !args.has(option));
     if let Some(option) = lacking {
@@ -100,7 +103,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         match (args.option(&row), single) {
             (Some(given), Some(_)) => {
                 return Err(Diagnostic::error(format!("{} is given twice", row.name), given.span)
-                    .other(key.map_or(args.span, |key| args.place(key)), "first given here"));
+                    .other(key.map_or(args.span, |key| args.position(key)), "first given here"));
             }
             (Some(given), None) => stiffness.set_row(n, &RowVector6::from(given.numbers_or_zero(ROW))),
             (None, single) => stiffness[(n, n)] = single.unwrap_or(0.0),
@@ -108,7 +111,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let part = model.parts.get(&Model::key(&point.part));
     let made = LinearHydrostatics {
-        at: part.map_or(point.at, |p| p.place.apply(point.at)),
+        at: part.map_or(point.at, |p| p.position.apply(point.at)),
         height: args.option_number(&ZCGE).unwrap_or_default(),
         buoyancy: args.option_number(&BUOYANCY).unwrap_or_default(),
         stiffness,

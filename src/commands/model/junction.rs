@@ -61,9 +61,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let at = args.numbers_or_zero(const { SPEC.numbers(["X", "Y", "Z"]) });
     let displacement = args.option_number(&DISPLACEMENT).unwrap_or(0.0);
     let weight = args.option_number(&WEIGHT).unwrap_or(0.0);
-    free(&job.model, name, "junction", args.place(NAME))?;
-    insert(&mut job.model, name, at, [weight, displacement], args.place(NAME));
-    job.note_name(name, args.place(NAME));
+    free(&job.model, name, "junction", args.position(NAME))?;
+    insert(&mut job.model, name, at, [weight, displacement], args.position(NAME));
+    job.note_name(name, args.position(NAME));
     Ok(Effect::Done)
 }
 
@@ -93,11 +93,11 @@ pub(crate) fn insert(model: &mut Model, name: &str, at: Position, [weight, displ
     let [x, y, z] = at;
     let volume = displacement / (model.defaults.water_density * model.defaults.gravity);
     let weights = if weight > 0.0 { vec![Weight { weight, span, ..Weight::default() }] } else { Vec::new() };
-    let place = Place::new([x, y, z, 0.0, 0.0, 0.0]);
+    let position = Place::new([x, y, z, 0.0, 0.0, 0.0]);
     let body = Body {
         name: name.to_string(),
-        place,
-        previous: place,
+        position,
+        previous: position,
         ignored: vec![Dof::Rx, Dof::Ry, Dof::Rz],
         junction: Some(Junction { displacement, volume }),
         linear: None,

@@ -355,8 +355,8 @@ static BUOY_SPEC: CommandSpec = CommandSpec {
 const PLACE: DatumKey<str> = AREA_SPEC.word("*PT");
 
 /// Where a record's point stands in the part being described, and that part.
-fn place(job: &Job, args: &Args) -> Outcome<(String, Position)> {
-    let (name, span) = (args.word(PLACE).unwrap_or_default(), args.place(PLACE));
+fn position(job: &Job, args: &Args) -> Outcome<(String, Position)> {
+    let (name, span) = (args.word(PLACE).unwrap_or_default(), args.position(PLACE));
     place_of_point(job, args, name, span)
 }
 
@@ -423,7 +423,7 @@ fn buoy(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let force = args.number(const { BUOY_SPEC.number("B") }).unwrap_or_default();
     let size = args.numbers_or_zero(const { BUOY_SPEC.numbers(["DX", "DY", "DZ"]) });
-    keep(job, args, place(job, args)?, LoadKind::Buoyancy { force, size })
+    keep(job, args, position(job, args)?, LoadKind::Buoyancy { force, size })
 }
 
 fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -439,7 +439,7 @@ fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const MIDSHIP: DatumKey<str> = TANKER_SPEC.word("*PT");
     let args = &call.args;
-    let place = place_of_point(job, args, args.word(MIDSHIP).unwrap_or_default(), args.place(MIDSHIP))?;
+    let position = place_of_point(job, args, args.word(MIDSHIP).unwrap_or_default(), args.position(MIDSHIP))?;
     let lacking = [COEFFICIENT_FILE, LBP, TANKER_DRAFT, WIND_AREAS].into_iter().find(|option| !args.has(option));
     if let Some(option) = lacking {
         return Err(Diagnostic::error(
@@ -472,7 +472,7 @@ fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
     for (fluid, rows) in [(Fluid::Air, wind), (Fluid::Water, current)] {
         let (category, group) = (weight::category_of(args), None);
         let kind = LoadKind::Coefficients { rows, symmetric };
-        let (part, at) = place.clone();
+        let (part, at) = position.clone();
         let shape_coefficients = [1.0; 2];
         job.model.loads.push(PartLoad { part, at, fluid, kind, shape_coefficients, category, group, span: args.span });
     }
@@ -482,7 +482,7 @@ fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn area(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let areas = args.numbers_or_zero(const { AREA_SPEC.numbers(["AX", "AY", "AZ"]) });
-    keep(job, args, place(job, args)?, LoadKind::Area(areas))
+    keep(job, args, position(job, args)?, LoadKind::Area(areas))
 }
 
 fn plate(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -529,7 +529,7 @@ fn coefficient_rows(
     for group in args.groups_from(abscissa) {
         let at = group.number(abscissa).unwrap_or(0.0);
         if rows.last().is_some_and(|(last, _)| at <= *last) {
-            return Err(Diagnostic::error("the first value of each group must grow", group.place(abscissa))
+            return Err(Diagnostic::error("the first value of each group must grow", group.position(abscissa))
                 .label("not larger than that of the group before"));
         }
         rows.push((at, group.numbers_or_zero(coefficients)));
@@ -539,32 +539,32 @@ fn coefficient_rows(
 
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let place = place(job, args)?;
+    let position = position(job, args)?;
     const HEADING: DatumKey<f64> = TABLE_SPEC.number("HEADING");
     let rows = coefficient_rows(args, HEADING, const { TABLE_SPEC.numbers(SIX_NAMES) })?;
     let symmetric = args.has(&SYMMETRIC);
     ByHeading::new(&rows, symmetric).map_err(|e| e.diagnostic(args.span, job.units))?;
     against(job, args, rows.iter().map(|(heading, six)| (*heading, six)));
-    keep(job, args, place, LoadKind::Coefficients { rows, symmetric })
+    keep(job, args, position, LoadKind::Coefficients { rows, symmetric })
 }
 
 fn drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const HEADING: DatumKey<f64> = DRIFT_SPEC.number("HEADING");
     let args = &call.args;
-    let place = place(job, args)?;
+    let position = position(job, args)?;
     const PERIOD: DatumKey<f64> = DRIFT_SPEC.number("PERIOD");
     let rows = coefficient_rows(args, PERIOD, const { DRIFT_SPEC.numbers(SIX_NAMES) })?;
     let heading = args.number(HEADING).unwrap_or(0.0);
     let same = |l: &&PartLoad| {
         let again = matches!(&l.kind, LoadKind::Drift { heading: h, .. } if *h == heading);
-        again && Model::key(&l.part) == Model::key(&place.0) && l.at == place.1
+        again && Model::key(&l.part) == Model::key(&position.0) && l.at == position.1
     };
     if let Some(old) = job.model.loads.iter().find(same) {
-        return Err(Diagnostic::error("this heading is given already at this point", args.place(HEADING))
+        return Err(Diagnostic::error("this heading is given already at this point", args.position(HEADING))
             .other(old.span, "given here"));
     }
     against(job, args, rows.iter().map(|(_, six)| (heading, six)));
-    keep(job, args, place, LoadKind::Drift { heading, rows, symmetric: args.has(&SYMMETRIC) })
+    keep(job, args, position, LoadKind::Drift { heading, rows, symmetric: args.has(&SYMMETRIC) })
 }
 
 /// Notes the first force that is against what comes from its heading: signs or headings are easily taken the other way.
@@ -586,7 +586,7 @@ fn values(args: &Args) -> Outcome<Matrix6<f64>> {
     let given = DIAGONAL.iter().any(|key| args.number(*key).is_some());
     match args.option(&FULL_RATE).map(Given::numbers) {
         Some(_) if given => {
-            Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.place(DIAGONAL[0])))
+            Err(Diagnostic::error("-MATRIX and a diagonal contradict each other", args.position(DIAGONAL[0])))
         }
         Some(all) => Ok(Matrix6::from_row_iterator(all.into_iter().chain(std::iter::repeat(0.0)).take(36))),
         None if !given => Err(Diagnostic::error("a matrix without values", args.span)
@@ -596,12 +596,12 @@ fn values(args: &Args) -> Outcome<Matrix6<f64>> {
 }
 
 fn matrix(job: &mut Job, call: &Call, kind: fn(Matrix6<f64>) -> LoadKind) -> Outcome<Effect> {
-    let place = place(job, &call.args)?;
-    keep(job, &call.args, place, kind(values(&call.args)?))
+    let position = position(job, &call.args)?;
+    keep(job, &call.args, position, kind(values(&call.args)?))
 }
 
 fn added_mass(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let place = place(job, &call.args)?;
+    let position = position(job, &call.args)?;
     let (matrix, gravity) = (values(&call.args)?, job.model.defaults.gravity);
-    keep(job, &call.args, place, LoadKind::AddedMass(matrix / gravity))
+    keep(job, &call.args, position, LoadKind::AddedMass(matrix / gravity))
 }

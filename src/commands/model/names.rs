@@ -147,8 +147,8 @@ fn remove_compartments(model: &mut Model, goes: impl Fn(&Compartment) -> bool) {
 fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const OLD: DatumKey<str> = RENAME_SPEC.word("OLD");
     const NEW: DatumKey<str> = RENAME_SPEC.word("NEW");
-    let [(old, span), (new, place)] =
-        [OLD, NEW].map(|key| (call.args.word(key).unwrap_or_default(), call.args.place(key)));
+    let [(old, span), (new, position)] =
+        [OLD, NEW].map(|key| (call.args.word(key).unwrap_or_default(), call.args.position(key)));
     let model = &mut job.model;
     let known = model.things();
     let renamed = |t: &EntityKind| {
@@ -159,7 +159,7 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let found = known.iter().find(|(t, name)| renamed(t) && name.eq_ignore_ascii_case(old)).map(|(t, _)| *t);
     if name::marker(old) != name::marker(new) {
-        return Err(Diagnostic::error("the new name must have the same marker as the old one", place));
+        return Err(Diagnostic::error("the new name must have the same marker as the old one", position));
     }
     let Some(thing) = found else {
         let mut error =
@@ -167,10 +167,10 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
         error.help.extend(suggest(old, known.iter().filter(|(t, _)| renamed(t)).map(|(_, name)| *name)));
         return Err(error);
     };
-    name::check(new, name::marker(old), thing.word(), place)?;
-    check_name_free(model, new, place)?;
+    name::check(new, name::marker(old), thing.word(), position)?;
+    check_name_free(model, new, position)?;
     if thing == EntityKind::Assembly {
-        check_name_free(model, &format!("*{new}"), place)?;
+        check_name_free(model, &format!("*{new}"), position)?;
     }
     let (from, to) = (Model::key(old), Model::key(new));
     let follow = |name: &mut String| {
@@ -239,9 +239,9 @@ fn hook_renamed(model: &mut Model, from: &str, to: &str, new: &str) {
 }
 
 /// Sees that nothing has a name yet.
-fn check_name_free(model: &Model, new: &str, place: Span) -> Outcome<()> {
+fn check_name_free(model: &Model, new: &str, position: Span) -> Outcome<()> {
     match EntityKind::ALL.into_iter().find_map(|thing| model.definition_span(thing, new)) {
-        Some(span) => Err(Diagnostic::error(format!("{new} exists already"), place).other(span, "defined here")),
+        Some(span) => Err(Diagnostic::error(format!("{new} exists already"), position).other(span, "defined here")),
         None => Ok(()),
     }
 }

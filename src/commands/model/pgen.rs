@@ -159,7 +159,7 @@ enum ShipSide {
 /// Where a piece stands in its part.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placing {
-    place: Option<Place>,
+    position: Option<Place>,
     side: ShipSide,
 }
 
@@ -178,10 +178,10 @@ impl Placing {
                 second.span,
             ));
         }
-        let place = args.option(&LOCATION).map(|given| {
+        let position = args.option(&LOCATION).map(|given| {
             Place::new(given.numbers_or_zero(const { LOCATION.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }))
         });
-        Ok(Placing { place, side: first.map_or(ShipSide::Mirrored, |(_, side)| side) })
+        Ok(Placing { position, side: first.map_or(ShipSide::Mirrored, |(_, side)| side) })
     }
 
     /// The pieces that panels make: as they are, mirrored, or both.
@@ -192,9 +192,9 @@ impl Placing {
             ShipSide::Port => vec![mirrored()],
             ShipSide::Both => vec![panels.clone(), mirrored()],
         };
-        let Some(place) = self.place else { return sides };
+        let Some(position) = self.position else { return sides };
         let placed = |panels: Vec<Vec<Position>>| -> Vec<Vec<Position>> {
-            panels.into_iter().map(|p| p.into_iter().map(|at| place.apply(at)).collect()).collect()
+            panels.into_iter().map(|p| p.into_iter().map(|at| position.apply(at)).collect()).collect()
         };
         sides.into_iter().map(placed).collect()
     }
@@ -248,7 +248,7 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         (name, _) => {
             let name = name.map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
-            let begun = piece::begin_piece(job, args, &name, args.place(NAME), Shape::Panels(Vec::new()))?;
+            let begun = piece::begin_piece(job, args, &name, args.position(NAME), Shape::Panels(Vec::new()))?;
             PieceOfSections::New(Box::new(begun))
         }
     };
@@ -265,11 +265,11 @@ fn plane(job: &mut Job, call: &Call) -> Outcome<Effect> {
         [] => {
             let [x, rest @ ..] = numbers.as_slice() else { return Ok(Effect::Done) };
             if rest.len() < 4 || rest.len() % 2 != 0 {
-                return Err(Diagnostic::error("a section has two or more points", args.place(X))
+                return Err(Diagnostic::error("a section has two or more points", args.position(X))
                     .label(format!("{} numbers follow this X", rest.len()))
                     .help("form: PLANE X Y1 Z1 Y2 Z2 .., or PLANE X1 X2 .. -CARTESIAN Y1 Z1 .."));
             }
-            (vec![(*x, args.place(X))], HullOutline::Points(pairs(rest)))
+            (vec![(*x, args.position(X))], HullOutline::Points(pairs(rest)))
         }
         [one] => {
             let at = args.data.iter().filter_map(|v| Some((v.number()?, v.span))).collect();
@@ -369,7 +369,7 @@ fn circle(given: &Given) -> Outcome<HullOutline> {
         };
     }
     if count < 4 {
-        return Err(Diagnostic::error("a whole circle needs four or more points", given.place(NPTS))
+        return Err(Diagnostic::error("a whole circle needs four or more points", given.position(NPTS))
             .help("the last of them is the first: 9 points make 8 sides"));
     }
     Ok(HullOutline::Circle(points(count - 1)))

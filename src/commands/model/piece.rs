@@ -255,8 +255,8 @@ pub fn point_in_part(model: &Model, name: &str, part: &Part, span: Span) -> Outc
             .label(format!("it belongs to {}", model.body_of(point).map_or("the ground", |b| &b.name)))
             .other(point.span, "defined here")
     })?;
-    let in_body = Vector3::from(own.place.apply(point.at));
-    Ok((part.place.rotation().inverse() * (in_body - Vector3::from(part.place.shift))).into())
+    let in_body = Vector3::from(own.position.apply(point.at));
+    Ok((part.position.rotation().inverse() * (in_body - Vector3::from(part.position.shift))).into())
 }
 
 /// The first of PIECE1, PIECE2 .. that nothing is called.

@@ -76,15 +76,15 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
             .other(old.span, "defined here")
             .help(format!("DELETE {PIPE} takes it away")));
     }
-    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.place(CLASS))?;
+    let class = find(&model.classes, args.word(CLASS).unwrap_or_default(), "class", args.position(CLASS))?;
     if class.object.as_pipe().is_none() {
         let text = format!("{} is of class type {}, and a pipe is a ROD", class.name, class.object.kind());
-        return Err(Diagnostic::error(text, args.place(CLASS)));
+        return Err(Diagnostic::error(text, args.position(CLASS)));
     }
     if let Some(extra) = args.data_after(CLASS).get(MAX_SUPPORTS) {
         return Err(Diagnostic::error(format!("a pipe has at most {MAX_SUPPORTS} supports"), extra.span));
     }
-    let (mut supports, mut places): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
+    let (mut supports, mut positions): (Vec<String>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut first: Option<(&str, ClassRole)> = None;
     for value in args.data_after(CLASS) {
         let span = value.span;
@@ -109,7 +109,7 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
             let text = format!("{} is not on the global X axis", connector.name);
             return Err(Diagnostic::error(text, span).help("a pipe is laid along X with Y = 0"));
         }
-        let apart: Vec<f64> = places.iter().copied().chain([x]).collect();
+        let apart: Vec<f64> = positions.iter().copied().chain([x]).collect();
         let steps: Vec<f64> =
             apart.windows(2).map(|w| w.iter().rev().copied().reduce(|b, a| b - a).unwrap_or(0.0)).collect();
         if steps.iter().any(|s| *s == 0.0 || (s > &0.0) != (steps.first() > Some(&0.0))) {
@@ -117,12 +117,12 @@ fn build(model: &mut Model, args: &Args) -> Outcome<()> {
             return Err(Diagnostic::error(text, span));
         }
         supports.push(connector.name.clone());
-        places.push(x);
+        positions.push(x);
     }
     let role = first.map_or(ClassRole::Connector, |(_, role)| role);
     if supports.len() < 2 && role == ClassRole::PipeDavit {
         let text = "a pipe hangs from two davits or more";
-        return Err(Diagnostic::error(text, args.place(const { SPEC.word("EL") }))
+        return Err(Diagnostic::error(text, args.position(const { SPEC.word("EL") }))
             .help("a single roller makes a vertical riser of it"));
     }
     let Some(given) = args.option(&PIPE_TENSION) else {

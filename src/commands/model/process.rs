@@ -27,7 +27,7 @@ pub struct Process {
     /// Its name as written.
     name: String,
     /// Present and previous places of bodies, by key.
-    places: HashMap<String, [Place; 2]>,
+    positions: HashMap<String, [Place; 2]>,
     /// Connectors, by key.
     connectors: HashMap<String, ConnectorSettings>,
     /// What is in compartments, by key.
@@ -41,13 +41,13 @@ pub struct Process {
 impl Process {
     /// The settings of a model, without events.
     fn of_model(name: &str, model: &Model) -> Self {
-        let places = model.bodies.iter().map(|(key, body)| (key.clone(), [body.place, body.previous]));
+        let positions = model.bodies.iter().map(|(key, body)| (key.clone(), [body.position, body.previous]));
         let connectors = model.connectors.iter().map(|(key, c)| {
             (key.clone(), ConnectorSettings { active: c.active, first_length: c.first_length, anchor: c.anchor })
         });
         Process {
             name: name.to_string(),
-            places: places.collect(),
+            positions: positions.collect(),
             connectors: connectors.collect(),
             contents: model.compartments.iter().map(|(key, tank)| (key.clone(), tank.contents)).collect(),
             multipliers: model.multipliers.clone(),
@@ -60,9 +60,9 @@ impl Process {
     /// Gives a model these settings; what has been defined since keeps its own.
     fn restore(self, job: &mut Job) {
         let model = &mut job.model;
-        for (key, [place, previous]) in self.places {
+        for (key, [position, previous]) in self.positions {
             if let Some(body) = model.bodies.get_mut(&key) {
-                (body.place, body.previous) = (place, previous);
+                (body.position, body.previous) = (position, previous);
             }
         }
         for (key, settings) in self.connectors {
@@ -86,8 +86,8 @@ impl Process {
 ///
 /// # Errors
 /// A name that cannot be one.
-pub(super) fn describe(job: &mut Job, name: &str, place: Span, forget: bool) -> Outcome<()> {
-    rule::check(name, None, "process", place)?;
+pub(super) fn describe(job: &mut Job, name: &str, position: Span, forget: bool) -> Outcome<()> {
+    rule::check(name, None, "process", position)?;
     if !job.process.eq_ignore_ascii_case(name) {
         let left = Process {
             run: job.run.take(),
@@ -99,7 +99,7 @@ pub(super) fn describe(job: &mut Job, name: &str, place: Span, forget: bool) -> 
             Some(known) => known.restore(job),
             None => job.process = name.to_string(),
         }
-        job.note_name(name, place);
+        job.note_name(name, position);
     }
     if forget {
         (job.run, job.tethered) = (None, None);

@@ -61,7 +61,7 @@ impl Rigging<'_> {
         let slings = self.slings(model)?;
         let key = Model::key(self.body);
         let Some(body) = model.bodies.get(&key) else { return Err(self.too_short()) };
-        let pose = Pose::from_place(&body.place);
+        let pose = Pose::from_place(&body.position);
         let (at, turn) = if turned {
             let mass = windlass_hydro::laden_mass(model, body).map_err(|e| e.diagnostic(self.span, self.units))?;
             if mass.mass <= 0.0 {
@@ -76,15 +76,15 @@ impl Rigging<'_> {
         };
         let to = boom.node - Vector3::z() * boom.length;
         let moved = Pose { origin: to - turn * (at - pose.origin), axes: turn * pose.axes };
-        let place = if turned {
-            moved.place(&body.place)
+        let position = if turned {
+            moved.position(&body.position)
         } else {
             // angles that stay keep their numbers
-            Place { shift: moved.origin.into(), ..body.place }
+            Place { shift: moved.origin.into(), ..body.position }
         };
         if let Some(body) = model.bodies.get_mut(&key) {
-            body.previous = body.place;
-            body.place = place;
+            body.previous = body.position;
+            body.position = position;
         }
         Ok(to)
     }
@@ -156,18 +156,18 @@ pub fn orient(model: &mut Model, body: &str, slings: &[String], span: Span) -> O
     let x = (front - back).try_normalize(1e-9).ok_or_else(flat)?;
     let y = (side - x * x.dot(&side)).try_normalize(1e-9).ok_or_else(flat)?;
     let axes = Matrix3::from_columns(&[x, y, x.cross(&y)]);
-    let (from, to) = (Pose::from_place(&old.place), Pose { origin: (front + back) / 2.0, axes });
-    let place = to.place(&Place::default());
+    let (from, to) = (Pose::from_place(&old.position), Pose { origin: (front + back) / 2.0, axes });
+    let position = to.position(&Place::default());
     // the new pose as its place gives it back
-    let to = Pose::from_place(&place);
+    let to = Pose::from_place(&position);
     for part in model.parts.values_mut().filter(|p| Model::key(&p.body) == key) {
-        let was = Pose::from_place(&part.place);
+        let was = Pose::from_place(&part.position);
         let axes = to.axes.transpose() * from.axes * was.axes;
-        part.place = Pose { origin: to.local(from.point(was.origin)), axes }.place(&Place::default());
+        part.position = Pose { origin: to.local(from.point(was.origin)), axes }.position(&Place::default());
     }
     if let Some(body) = model.bodies.get_mut(&key) {
-        body.place = place;
-        body.previous = place;
+        body.position = position;
+        body.previous = position;
     }
     Ok(())
 }

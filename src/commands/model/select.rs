@@ -46,7 +46,7 @@ static SELECTOR_SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = SPEC.word(":NAME");
     match call.args.word(NAME) {
-        Some(name) => define(job, call, name, call.args.place(NAME)),
+        Some(name) => define(job, call, name, call.args.position(NAME)),
         None if call.args.options.is_empty() => {
             job.menus.push(Menu::Selectors);
             Ok(Effect::Done)

@@ -280,16 +280,16 @@ fn copy_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const NAME: DatumKey<str> = COPY_SPEC.word("NAME");
     const NEW_NAME: DatumKey<str> = COPY_SPEC.word("NEW");
-    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
-    refuse_element(&original, args.place(NAME))?;
+    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.position(NAME))?;
+    refuse_element(&original, args.position(NAME))?;
     let by = Place::new(args.numbers_or_zero(const { COPY_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let made = Piece {
         name: args.word(NEW_NAME).unwrap_or_default().to_string(),
         shape: original.shape.with_displacement(&by),
-        span: args.place(NEW_NAME),
+        span: args.position(NEW_NAME),
         ..original.clone()
     };
-    add_beside(job, &original.name, made, args.place(NEW_NAME))?;
+    add_beside(job, &original.name, made, args.position(NEW_NAME))?;
     Ok(Effect::Done)
 }
 
@@ -313,13 +313,13 @@ fn reflect_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     const NAME: DatumKey<str> = REFLECT_SPEC.word("NAME");
     const NEW_NAME: DatumKey<str> = REFLECT_SPEC.word("NEW");
-    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.place(NAME))?;
-    refuse_element(&original, args.place(NAME))?;
+    let original = known_piece(job, args.word(NAME).unwrap_or_default(), args.position(NAME))?;
+    refuse_element(&original, args.position(NAME))?;
     let shape = mirror(&original.shape);
     match args.word(NEW_NAME) {
         Some(new) => {
-            let made = Piece { name: new.to_string(), shape, span: args.place(NEW_NAME), ..original.clone() };
-            add_beside(job, &original.name, made, args.place(NEW_NAME))?;
+            let made = Piece { name: new.to_string(), shape, span: args.position(NEW_NAME), ..original.clone() };
+            add_beside(job, &original.name, made, args.position(NEW_NAME))?;
         }
         None => {
             if let Some(piece) = job.model.piece_mut(&original.name) {
@@ -352,14 +352,14 @@ const CORNERS: [DatumKey<f64>; 6] = BLOCK_SPEC.numbers(["X1", "Y1", "Z1", "X2", 
 /// A piece of a record without a surface: what its records give follows in a menu. Returns its name.
 fn begin_menu(job: &mut Job, args: &Args) -> Outcome<String> {
     let name = args.word(PIECE).map_or_else(|| piece::free_piece_name(&job.model), str::to_string);
-    let piece = piece::begin_piece(job, args, &name, args.place(PIECE), Shape::Panels(Vec::new()))?;
+    let piece = piece::begin_piece(job, args, &name, args.position(PIECE), Shape::Panels(Vec::new()))?;
     piece::add(job, piece, false);
     Ok(name)
 }
 
 /// A piece that its record gives whole.
 fn whole(job: &mut Job, args: &Args, shape: Shape) -> Outcome<Effect> {
-    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.place(PIECE), shape)?;
+    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.position(PIECE), shape)?;
     piece::add(job, piece, true);
     Ok(Effect::Done)
 }
@@ -396,14 +396,14 @@ fn block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [.., x, y, z] = CORNERS;
     let mut flat = pairs.iter().zip([("X", x), ("Y", y), ("Z", z)]).filter(|((a, b), _)| a == b);
     if let Some((_, (axis, key))) = flat.next() {
-        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.place(key)));
+        return Err(Diagnostic::error(format!("the box has no volume: {axis}1 is {axis}2"), args.position(key)));
     }
     let shape = Shape::Block { low: pairs.map(|(a, b)| a.min(*b)), high: pairs.map(|(a, b)| a.max(*b)) };
     let placing = Placing::from_args(args)?;
     if placing == Placing::default() {
         return whole(job, args, shape);
     }
-    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.place(PIECE), shape)?;
+    let piece = piece::begin_piece(job, args, args.word(PIECE).unwrap_or_default(), args.position(PIECE), shape)?;
     add_placed(job, piece, placing)?;
     Ok(Effect::Done)
 }
@@ -416,7 +416,7 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.menus.push(Menu::Mesh(MeshVertices::default()));
         return Ok(Effect::Done);
     };
-    let span = args.place(FILE);
+    let span = args.position(FILE);
     let panels = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);
     let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
@@ -454,17 +454,18 @@ fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const DIAMETER: DatumKey<f64> = TUBE_SPEC.number("OD");
     const OTHER_DIAMETER: DatumKey<f64> = TUBE_SPEC.number("OD2");
     let end = |key: DatumKey<str>| {
-        piece::point_in_part(&job.model, args.word(key).unwrap_or_default(), part, args.place(key))
+        piece::point_in_part(&job.model, args.word(key).unwrap_or_default(), part, args.position(key))
     };
     let ends = [end(const { TUBE_SPEC.word("*P1") })?, end(SECOND)?];
     if ends[0] == ends[1] {
-        return Err(Diagnostic::error("a tube needs two points at different places", args.place(SECOND)));
+        return Err(Diagnostic::error("a tube needs two points at different places", args.position(SECOND)));
     }
     if args.number(OTHER_DIAMETER).is_some_and(|other| Some(other) != args.number(DIAMETER)) {
-        return Err(Diagnostic::error("a TUBE has one diameter: tapers are not supported", args.place(OTHER_DIAMETER))
-            .help(
-                "divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces",
-            ));
+        return Err(Diagnostic::error(
+            "a TUBE has one diameter: tapers are not supported",
+            args.position(OTHER_DIAMETER),
+        )
+        .help("divide it into TUBEs of steps in diameter; PGEN makes a cone that floats, without a member's forces"));
     }
     whole(job, args, Shape::Tube { ends, diameter: args.number(DIAMETER).unwrap_or_default() })
 }
@@ -474,13 +475,13 @@ fn move_block(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = MOVE_SPEC.word("NAME");
     let name = args.word(NAME).unwrap_or_default();
     if let Some((_, piece)) = job.model.piece(name) {
-        refuse_element(piece, args.place(NAME))?;
+        refuse_element(piece, args.position(NAME))?;
     }
     let by = Place::new(args.numbers_or_zero(const { MOVE_SPEC.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) }));
     let known = job.model.names(windlass_model::EntityKind::Piece);
     let help = windlass_base::diagnostic::suggest(name, known);
     let Some(Piece { shape, name, .. }) = job.model.piece_mut(name) else {
-        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.place(NAME));
+        let mut error = Diagnostic::error(format!("unknown piece {name}"), args.position(NAME));
         error.help.extend(help);
         return Err(error);
     };

@@ -68,7 +68,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = SPEC.word("NAME");
     const PRESSURE: DatumKey<f64> = SPEC.number("PRESSURE");
     let args = &call.args;
-    let (name, span) = (args.word(NAME).unwrap_or_default(), args.place(NAME));
+    let (name, span) = (args.word(NAME).unwrap_or_default(), args.position(NAME));
     rule::check(name, None, "set of T_PRESSURE data", span)?;
     job.model.free_name(name, &[EntityKind::Filling], span)?;
     if let (Some(first), Some(second)) = (args.option(&DENSITY), args.option(&SPGRAVITY)) {
@@ -79,7 +79,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if pressure < -STANDARD_ATMOSPHERE_PA {
         let least = Dim::Stress.from_si(-STANDARD_ATMOSPHERE_PA, job.units);
         let text = format!("PRESSURE is over the atmosphere's, and {least:.4} is that of nothing");
-        return Err(Diagnostic::error(text, args.place(PRESSURE)).label("less than none"));
+        return Err(Diagnostic::error(text, args.position(PRESSURE)).label("less than none"));
     }
     let weight = args.option_number(&SPGRAVITY).map(|s| 1000.0 * s);
     let contents = Contents {

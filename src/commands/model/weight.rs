@@ -145,11 +145,11 @@ fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const OWN_RADII: [DatumKey<f64>; 3] = ITEM_SPEC.numbers(["KX", "KY", "KZ"]);
     let args = &call.args;
     let model = &job.model;
-    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.place(POINT))?;
+    let point = find(&model.points, args.word(POINT).unwrap_or_default(), "point", args.position(POINT))?;
     if model.body_of(point).is_none() {
         return Err(Diagnostic::error(
             format!("{} is a point of the ground and carries no weight", point.name),
-            args.place(POINT),
+            args.position(POINT),
         )
         .other(point.span, "defined here")
         .help("points after &DESCRIBE BODY or PART belong to it"));
@@ -157,16 +157,16 @@ fn item(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let radii = args.numbers_or_zero(OWN_RADII);
     let weight = args.number(WEIGHT).unwrap_or_default();
     if weight == 0.0 {
-        return Err(Diagnostic::error("a weight of zero weighs nothing", args.place(WEIGHT))
+        return Err(Diagnostic::error("a weight of zero weighs nothing", args.position(WEIGHT))
             .label(if radii == [0.0; 3] { "" } else { "radii of gyration need a weight" }));
     }
-    let (at, key, span) = (point.at, Model::key(&point.part), args.place(WEIGHT));
+    let (at, key, span) = (point.at, Model::key(&point.part), args.position(WEIGHT));
     if let Some(text) = no_body_has(radii, job.units) {
-        job.warn(text, args.place(OWN_RADII[0]));
+        job.warn(text, args.position(OWN_RADII[0]));
     }
     let spread = stations(args, at[0])?;
     let category = category_of(args);
-    let group = group_for(&job.model, args.word(POINT).unwrap_or_default(), args.place(POINT))?;
+    let group = group_for(&job.model, args.word(POINT).unwrap_or_default(), args.position(POINT))?;
     if let Some(part) = job.model.parts.get_mut(&key) {
         part.weights.push(Weight { at, weight, radii, category, group, spread, span, ..Weight::default() });
     }
@@ -237,17 +237,17 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("options: -COMPUTE, -TOTAL, -DEFINE, -MARGIN"));
     }
     for given in &call.args.options {
-        let place = given.first_place();
+        let position = given.first_place();
         if given.is(&MARGIN) && given.first_word().is_none() {
             let factor = given.number(const { MARGIN.number("PERCENT") }).unwrap_or(1.0);
             if factor <= 0.0 {
-                return Err(Diagnostic::error("the factor of -MARGIN must be greater than zero", place));
+                return Err(Diagnostic::error("the factor of -MARGIN must be greater than zero", position));
             }
             job.model.parts.values_mut().flat_map(|p| p.weights.iter_mut()).for_each(|w| w.weight *= factor);
             continue;
         }
         let body = match given.first_word() {
-            Some(name) => find(&job.model.bodies, name, "body", place)?.clone(),
+            Some(name) => find(&job.model.bodies, name, "body", position)?.clone(),
             None => job.model.current_body().cloned().ok_or_else(|| {
                 Diagnostic::error("no body is described yet", given.span).help("&DESCRIBE BODY describes one")
             })?,
@@ -289,7 +289,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     count += 1;
                 }
                 if count == 0 {
-                    return Err(Diagnostic::error(format!("{} has no weight to enlarge", body.name), place));
+                    return Err(Diagnostic::error(format!("{} has no weight to enlarge", body.name), position));
                 }
                 Vec::new()
             }
@@ -307,12 +307,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// # Errors
 /// A part that is turned in its body.
 fn in_own_part(job: &Job, body: &Body, at: Vector3<f64>, given: &Given) -> Outcome<[f64; 3]> {
-    let place = job.model.parts.get(&Model::key(&body.name)).map(|p| p.place).unwrap_or_default();
-    if place.turn != [0.0; 3] {
+    let position = job.model.parts.get(&Model::key(&body.name)).map(|p| p.position).unwrap_or_default();
+    if position.turn != [0.0; 3] {
         let text = format!("{} adds to the body's own part, and that is turned within the body", given.name());
         return Err(Diagnostic::error(text, given.span).help("&DESCRIBE PART NAME -MOVE turns parts"));
     }
-    Ok((at - Vector3::from(place.shift)).into())
+    Ok((at - Vector3::from(position.shift)).into())
 }
 
 /// The weight with which a body is in equilibrium where it floats.
@@ -323,7 +323,7 @@ fn compute_weight(job: &Job, given: &Given, body: &Body) -> Outcome<Weight> {
     let to_error = |e: ClassError| e.diagnostic(given.span, job.units);
     job.model.check_effects(SolveKind::Statics).map_err(to_error)?;
     let floating = Floating::at_rest(&job.model, body).map_err(to_error)?;
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let still = [HydroCategory::Weight, HydroCategory::Contents, HydroCategory::Buoyancy];
     let mut sum = Six::zeros();
     for load in floating.loads.iter().filter(|load| still.contains(&load.category())) {
@@ -378,7 +378,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Vec<Weight>> {
     let lacking = total - now.mass;
     let size = 1e-9 * total;
     if lacking < -size {
-        return Err(Diagnostic::error("the weights there already weigh more than the total", given.place(WEIGHT))
+        return Err(Diagnostic::error("the weights there already weigh more than the total", given.position(WEIGHT))
             .label(format!("they weigh {}", with_unit(now.mass * gravity, Dim::Force))));
     }
     let moment = centre * total - now.centre * now.mass;
@@ -417,7 +417,7 @@ fn missing(job: &Job, given: &Given, now: &Mass) -> Outcome<Vec<Weight>> {
             let most = with_unit((there[(i, i)] / total).sqrt(), Dim::Length);
             return Err(Diagnostic::error(
                 format!("the weight to be added would need a negative moment of inertia about {axis}"),
-                given.place(key),
+                given.position(key),
             )
             .label(format!("with what is there already the radius is at least {most}"))
             .help(format!(

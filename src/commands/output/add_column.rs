@@ -63,13 +63,13 @@ const NAME: DatumKey<str> = SPEC.word("NAME");
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let (name, place) = (args.word(NAME).unwrap_or_default().to_string(), args.place(NAME));
+    let (name, position) = (args.word(NAME).unwrap_or_default().to_string(), args.position(NAME));
     let d = open_disposition(job, args.span)?;
     if name.is_empty() || d.table.columns().iter().any(|c| c.name.eq_ignore_ascii_case(&name)) {
-        return Err(Diagnostic::error(format!("there is a column called {name} already"), place));
+        return Err(Diagnostic::error(format!("there is a column called {name} already"), position));
     }
     if name.bytes().all(|b| b.is_ascii_digit() || b == b':') {
-        return Err(Diagnostic::error(format!("`{name}` would be the number of a column"), place));
+        return Err(Diagnostic::error(format!("`{name}` would be the number of a column"), position));
     }
     let (column, said) = match (args.option(&COMBINE), args.option(&FILTER)) {
         (Some(_), Some(second)) => {
@@ -148,7 +148,7 @@ fn filter_column(
         let [from, to] = band.numbers_or_zero([const { FILTER.number("T1") }, UPPER]);
         if from > to {
             let text = format!("the band from {from} to {to} s holds nothing");
-            return Err(Diagnostic::error(text, band.place(UPPER)));
+            return Err(Diagnostic::error(text, band.position(UPPER)));
         }
         list.push([from, to]);
     }

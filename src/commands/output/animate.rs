@@ -95,7 +95,7 @@ fn form(args: &Args) -> Outcome<(String, FileForm)> {
         None => Ok((format!("{name}.html"), FileForm::Page)),
         Some("html" | "htm") => Ok((name.to_string(), FileForm::Page)),
         Some("vtk") => Ok((name.to_string(), FileForm::Series)),
-        Some(_) => Err(Diagnostic::error(format!("a film ends in .html or .vtk, not `{name}`"), args.place(FILE))),
+        Some(_) => Err(Diagnostic::error(format!("a film ends in .html or .vtk, not `{name}`"), args.position(FILE))),
     }
 }
 
@@ -131,11 +131,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             let page = film::page(&film, title, job.units);
             let page = page.map_err(|e| Diagnostic::error(format!("the page could not be made: {e:#}"), args.span))?;
             let path = job.output.folder.write(&name, page.as_bytes());
-            let path = path.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.place(FILE)))?;
+            let path = path.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.position(FILE)))?;
             format!("wrote {}: {frames} instants", path.display())
         }
         FileForm::Series => {
-            let path = series(&job.output.folder, &film, (title, &name), args.place(FILE))?;
+            let path = series(&job.output.folder, &film, (title, &name), args.position(FILE))?;
             format!("wrote {}, a series of {frames} files", path.display())
         }
     };

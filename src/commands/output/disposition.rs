@@ -272,7 +272,7 @@ pub(crate) fn open_chosen_table(
     job: &mut Job,
     args: &Args,
     tables: &[Table],
-    (transient, place): (f64, Span),
+    (transient, position): (f64, Span),
 ) -> Outcome<bool> {
     let Some(given) = args.option(&DISPOSE) else { return Ok(false) };
     let wanted = given.first_integer().unwrap_or(1);
@@ -281,7 +281,7 @@ pub(crate) fn open_chosen_table(
         let text = format!("there is no table {wanted} here: there are {}", tables.len());
         return Err(Diagnostic::error(text, given.span));
     };
-    raise(job, &table, place);
+    raise(job, &table, position);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(table).after_transient(transient))));
     Ok(true)
 }
@@ -343,7 +343,7 @@ fn set_variable(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = args.word(VARIABLE).unwrap_or_default();
     let good = name.len() <= 64 && !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_');
     if !good {
-        return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.place(VARIABLE)));
+        return Err(Diagnostic::error(format!("`{name}` cannot name a variable"), args.position(VARIABLE)));
     }
     let d = open_disposition(job, args.span)?;
     let column = args.word(const { SET_VARIABLE_SPEC.word("COLUMN") }).unwrap_or_default();
@@ -384,7 +384,7 @@ fn cull(job: &mut Job, call: &Call) -> Outcome<Effect> {
             if low > high {
                 let text = format!("the range from {low} to {high} holds nothing");
                 return Err(
-                    Diagnostic::error(text, range.place(UPPER)).label("expected no less than the value before it")
+                    Diagnostic::error(text, range.position(UPPER)).label("expected no less than the value before it")
                 );
             }
             excluded.push((low, high));

@@ -45,12 +45,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Some("csv") => csv::bytes(&table, job.units).map_err(|e| e.to_string()),
         _ => {
             // a name that no file may have is refused for that
-            let place = job.output.folder.place(&name);
-            place.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.place(FILE)))?;
+            let position = job.output.folder.position(&name);
+            position.map_err(|e| crate::commands::files::file::to_diagnostic(&e, args.position(FILE)))?;
             Err(format!("a table is stored as .csv, .xlsx, .parquet or .nc, not as `{name}`"))
         }
     };
-    let bytes = bytes.map_err(|text| Diagnostic::error(text, args.place(FILE)))?;
-    write_file(job, &name, &bytes, args.place(FILE))?;
+    let bytes = bytes.map_err(|text| Diagnostic::error(text, args.position(FILE)))?;
+    write_file(job, &name, &bytes, args.position(FILE))?;
     Ok(Effect::Done)
 }

@@ -194,7 +194,7 @@ fn find_placed_point(job: &Job, name: &str, span: Span) -> Outcome<PlacedPoint> 
         return Err(Diagnostic::error(format!("point {name} belongs to no body"), span));
     };
     let part = job.model.parts.get(&Model::key(&point.part));
-    let at = part.map_or(point.at, |p| p.place.apply(point.at));
+    let at = part.map_or(point.at, |p| p.position.apply(point.at));
     Ok(PlacedPoint { name: name.to_string(), body: owner.name.clone(), at })
 }
 
@@ -207,8 +207,8 @@ fn read_points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) ->
             return Err(Diagnostic::error("a point is given by X, Y and Z", span)
                 .help("form: FR_POINT X Y Z or FR_POINT *PT [*PT]"));
         };
-        let number = |(word, place): &(&str, Span)| {
-            let value = evaluate(word).map_err(|e| Diagnostic::error(e.to_string(), *place))?;
+        let number = |(word, position): &(&str, Span)| {
+            let value = evaluate(word).map_err(|e| Diagnostic::error(e.to_string(), *position))?;
             Ok::<f64, Box<Diagnostic>>(Dim::Length.to_si(value, job.units))
         };
         let at = [number(x)?, number(y)?, number(z)?];
@@ -218,7 +218,7 @@ fn read_points(job: &Job, linear: &LinearSystem, named: &[Value], span: Span) ->
     match words.as_slice() {
         [] => Err(Diagnostic::error("a point is missing", span).help("form: STATISTICS POINT *PT [*PT]")),
         [_, _, (_, surplus), ..] => Err(Diagnostic::error("there are more than two points", *surplus)),
-        list => list.iter().map(|(word, place)| find_placed_point(job, word, *place)).collect(),
+        list => list.iter().map(|(word, position)| find_placed_point(job, word, *position)).collect(),
     }
 }
 
@@ -250,7 +250,7 @@ fn motion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let linear = open_results(job, args.span)?.linear().cloned();
     let Some(linear) = linear else { return Ok(Effect::Done) };
-    let (index, name) = body(job, &linear, args.word(BODY), args.place(BODY))?;
+    let (index, name) = body(job, &linear, args.word(BODY), args.position(BODY))?;
     let list = NamedQuantity::dofs(&linear, index);
     let made = results_table(job, format!("Motion of {name}"), &list, Derivative::Place, args.span)?;
     Ok(dispose(job, made, args.span))
@@ -377,7 +377,7 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 return Err(Diagnostic::error("MOTION takes one body", surplus.span));
             }
             const NAME: DatumKey<str> = STATISTICS_SPEC.word("NAME");
-            let (index, name) = body(job, &linear, args.word(NAME), args.place(NAME))?;
+            let (index, name) = body(job, &linear, args.word(NAME), args.position(NAME))?;
             body_statistics(format!("Statistics: {of} of {name}"), both, index, how)
         }
     };

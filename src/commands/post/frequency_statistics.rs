@@ -191,7 +191,7 @@ fn respond_in(job: &mut Job, args: &Args, name: Option<(&str, Span)>) -> Outcome
 
 /// The name of an environment among the data of a record.
 fn env_of(args: &Args, key: DatumKey<str>) -> Option<(&str, Span)> {
-    args.word(key).map(|name| (name, args.place(key)))
+    args.word(key).map(|name| (name, args.position(key)))
 }
 
 fn point_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {

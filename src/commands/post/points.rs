@@ -34,7 +34,7 @@ static SPEC: CommandSpec = CommandSpec {
 pub(super) fn track(query: &PostQuery, point: &Point) -> Outcome<TrackedPoint> {
     let model = &query.job.model;
     let part = model.parts.get(&Model::key(&point.part));
-    let at = part.map_or(point.at, |p| p.place.apply(point.at));
+    let at = part.map_or(point.at, |p| p.position.apply(point.at));
     let body = match model.body_of(point) {
         None => None,
         Some(body) => {

@@ -152,6 +152,9 @@ impl PostQuery<'_> {
     }
 
     /// The events it asks for: those of `-EVENTS`, or all stored instants.
+    ///
+    /// # Errors
+    /// No run, or an event outside of it.
     pub fn events(&self) -> Outcome<Vec<RunEvent>> {
         Ok(run_and_events(self.job, self.args())?.1)
     }
@@ -170,16 +173,25 @@ impl PostQuery<'_> {
     }
 
     /// The bodies of the run that the record chooses, by data and -BODY.
+    ///
+    /// # Errors
+    /// A name that is no body of the run.
     pub fn bodies(&self) -> Outcome<Vec<usize>> {
         bodies(self.job, self.run, self.args())
     }
 
     /// The connectors of the run that the record chooses.
+    ///
+    /// # Errors
+    /// A name that is no connector of the run.
     pub fn connectors(&self) -> Outcome<Vec<usize>> {
         connectors(self.job, self.run, self.call)
     }
 
     /// What an engine made, its error at the record.
+    ///
+    /// # Errors
+    /// The engine's error, with the span of the record.
     pub fn to_outcome<T>(&self, made: Result<T, SolveError>) -> Outcome<T> {
         made.map_err(|e| to_diagnostic(e, &self.job.model, self.span(), self.job.units))
     }
@@ -199,8 +211,8 @@ pub(crate) fn show(job: &mut Job, call: &Call, build: fn(&PostQuery) -> Outcome<
 }
 
 /// The places among some names of those that a record chooses.
-fn places<'n>(chosen: &NameFilter, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
-    names.enumerate().filter(|(_, name)| chosen.matches(name)).map(|(place, _)| place).collect()
+fn positions<'n>(chosen: &NameFilter, names: impl Iterator<Item = &'n str>) -> Vec<usize> {
+    names.enumerate().filter(|(_, name)| chosen.matches(name)).map(|(position, _)| position).collect()
 }
 
 /// The bodies of a run that a record chooses, by data and -BODY.
@@ -209,7 +221,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
         args.data.iter().chain(args.option(&BODY).map_or(&[][..], |g| g.values.as_slice())).collect();
     let chosen = NameFilter::new(given, &job.model);
     let names = run.history.layout.bodies.iter();
-    let mut list = places(&chosen, names.clone().map(|(name, _)| name.as_str()));
+    let mut list = positions(&chosen, names.clone().map(|(name, _)| name.as_str()));
     chosen.check_used("the bodies of the run", &[EntityKind::Body])?;
     if chosen.chooses_all() {
         // junctions are reported only by name: they are many
@@ -228,7 +240,7 @@ fn bodies(job: &Job, run: &Run, args: &Args) -> Outcome<Vec<usize>> {
 /// The connectors of a run that a record chooses.
 pub(crate) fn connectors(job: &Job, run: &Run, call: &Call) -> Outcome<Vec<usize>> {
     let chosen = NameFilter::new(&call.args.data, &job.model);
-    let list = places(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
+    let list = positions(&chosen, run.history.layout.links.iter().map(|l| l.name.as_str()));
     chosen.check_used("the connectors of the run", &[EntityKind::Connector, EntityKind::Assembly])?;
     if list.is_empty() {
         return Err(Diagnostic::error("no connector acts in the run", call.args.span));

@@ -61,7 +61,7 @@ fn relative(query: &PostQuery) -> Outcome<Table> {
     for pair in query.args().groups_from(FIRST) {
         let points = [pair.value(FIRST), pair.value(const { REL_MOTION_SPEC.word("*B") })];
         let [Some(first), Some(second)] = points.map(|value| value.filter(|value| value.is_given())) else {
-            return Err(Diagnostic::error("a point without another to be relative to", pair.place(FIRST))
+            return Err(Diagnostic::error("a point without another to be relative to", pair.position(FIRST))
                 .help("form: REL_MOTION *A *B [*A *B ..]"));
         };
         pairs.push([tracked(first)?, tracked(second)?]);

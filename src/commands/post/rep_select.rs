@@ -60,19 +60,19 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut chosen = Vec::new();
     for given in args.occurrences(&SN) {
         let name = given.word(const { SN.word("CURVE") }).unwrap_or_default();
-        let place = given.first_place();
+        let position = given.first_place();
         if given.values.len() > 1 {
             let made = define_curve(job, given, name)?;
             if selection.curves.insert(Model::key(name), made).is_some() {
-                job.remark(format!("fatigue curve {name} is redefined"), place);
+                job.remark(format!("fatigue curve {name} is redefined"), position);
             }
         }
         let Some(curve) = find(name, &selection) else {
-            return Err(Diagnostic::error(format!("there is no fatigue curve {name}"), place)
+            return Err(Diagnostic::error(format!("there is no fatigue curve {name}"), position)
                 .help("&STATUS SN lists the curves; -SN CURVE TYPE S N S N .. defines one"));
         };
         if curve.unconfirmed {
-            job.remark(format!("the numbers of fatigue curve {} are not confirmed: &STATUS SN", curve.name), place);
+            job.remark(format!("the numbers of fatigue curve {} are not confirmed: &STATUS SN", curve.name), position);
         }
         chosen.push(curve.name);
     }
@@ -102,7 +102,7 @@ fn define_curve(job: &Job, given: &Given, name: &str) -> Outcome<FatigueCurve> {
     for pair in given.groups() {
         const RANGE: ValueKey<f64> = SN.number("S");
         let Some(cycles) = pair.number(const { SN.number("N") }) else {
-            return Err(Diagnostic::error("a range of a fatigue curve lacks its cycles", pair.place(RANGE)));
+            return Err(Diagnostic::error("a range of a fatigue curve lacks its cycles", pair.position(RANGE)));
         };
         points.push((dim.to_si(pair.number(RANGE).unwrap_or_default(), job.units), cycles));
     }

@@ -96,11 +96,11 @@ fn save(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let name = match Path::new(name).extension() {
         None => format!("{name}.cif"),
         Some(ending) if ending.eq_ignore_ascii_case("cif") => name.to_string(),
-        Some(_) => return Err(Diagnostic::error(format!("a script ends in .cif, not `{name}`"), args.place(FILE))),
+        Some(_) => return Err(Diagnostic::error(format!("a script ends in .cif, not `{name}`"), args.position(FILE))),
     };
     let head =
         concat!("$ the records of a session of windlass ", env!("CARGO_PKG_VERSION"), ", as they were executed\n");
     let text = format!("{head}{}", job.journal.script(false));
-    write_file(job, &name, text.as_bytes(), args.place(FILE))?;
+    write_file(job, &name, text.as_bytes(), args.position(FILE))?;
     Ok(Effect::Done)
 }

@@ -92,7 +92,7 @@ fn dimen(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 };
                 let feet = matches!(force, ForceUnit::Kips | ForceUnit::LongTons | ForceUnit::ShortTons);
                 if feet != (length == LengthUnit::Feet) {
-                    let span = given.place(FORCE);
+                    let span = given.position(FORCE);
                     let fitting =
                         if length == LengthUnit::Feet { "KIPS, L-TONS or S-TONS" } else { "K-NTS, M-TONS or N" };
                     return Err(Diagnostic::error("this force unit does not go with this length unit", span)

@@ -121,13 +121,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let before = job.actions.len();
         job.actions.retain(|a| !a.name.eq_ignore_ascii_case(name));
         if job.actions.len() == before {
-            let mut error = Diagnostic::error(format!("there is no action {name}"), args.place(NAME));
+            let mut error = Diagnostic::error(format!("there is no action {name}"), args.position(NAME));
             error.help.extend(suggest(name, job.actions.iter().map(|a| a.name.as_str())));
             return Err(error);
         }
         return Ok(Effect::Done);
     }
-    rule::check(name, None, "action", args.place(NAME))?;
+    rule::check(name, None, "action", args.position(NAME))?;
     let mut when = parse_trigger(&job.model, single_option(args, &WHEN, "when it happens")?, job.units)?;
     if let Some(given) = args.option(&AFTER) {
         if matches!(when, Trigger::At(_)) {
@@ -156,24 +156,24 @@ fn single_option<'a>(args: &'a Args, options: &[OptionSpec], of: &str) -> Outcom
 }
 
 fn parse_trigger(model: &Model, given: &Given, units: UnitSystem) -> Outcome<Trigger> {
-    let place = given.first_place();
+    let position = given.first_place();
     let name = given.first_word().unwrap_or_default();
     let number = |key| given.number(key).unwrap_or(0.0);
     let line = || match model.assemblies.get(&Model::key(line_name(name))) {
         Some(pipe) if pipe.name == PIPE => Ok(Observable::Tension(pipe.name.clone())),
-        _ => find(&model.connectors, name, "connector", place).map(|c| Observable::Tension(c.name.clone())),
+        _ => find(&model.connectors, name, "connector", position).map(|c| Observable::Tension(c.name.clone())),
     };
     let dof = || -> Outcome<(Observable, f64)> {
-        let body = find(&model.bodies, name, "body", place)?;
+        let body = find(&model.bodies, name, "body", position)?;
         let dof: Dof = given.choice(const { ABOVE.choice("DOF") }).unwrap_or(Dof::X);
         let dim = if dof.is_rotation() { Dim::Angle } else { Dim::Length };
         Ok((Observable::Dof(body.name.clone(), dof.index()), dim.to_si(number(const { ABOVE.number("V") }), units)))
     };
     let point = || {
-        let found = find(&model.points, name, "point", place)?;
+        let found = find(&model.points, name, "point", position)?;
         match model.body_of(found) {
             Some(_) => Ok(Observable::Height(found.name.clone())),
-            None => Err(Diagnostic::error(format!("point {name} belongs to no body"), place)),
+            None => Err(Diagnostic::error(format!("point {name} belongs to no body"), position)),
         }
     };
     Ok(match given {
@@ -200,8 +200,8 @@ fn parse_action(model: &Model, given: &Given) -> Outcome<ActionKind> {
             ActionKind::Winch(names(1)?, given.number(rate).unwrap_or(0.0), given.number(length))
         }
         _ if given.is(&ENVIRONMENT) => {
-            let (name, place) = (given.first_word().unwrap_or_default(), given.first_place());
-            ActionKind::Environment(find(&model.environments, name, "environment", place)?.name.clone())
+            let (name, position) = (given.first_word().unwrap_or_default(), given.first_place());
+            ActionKind::Environment(find(&model.environments, name, "environment", position)?.name.clone())
         }
         _ => ActionKind::Stop,
     })

@@ -113,13 +113,14 @@ const NAMED: DatumKey<str> = TABLE_SPEC.word(LINE.name);
 
 /// The connector that a record's first datum names, and its class.
 fn find_connector<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Connector, &'a Class)> {
-    let connector = find(&job.model.connectors, args.word(NAMED).unwrap_or_default(), "connector", args.place(NAMED))?;
+    let connector =
+        find(&job.model.connectors, args.word(NAMED).unwrap_or_default(), "connector", args.position(NAMED))?;
     if let Some(assembly) = job.model.reeving(&connector.name) {
         let text =
             format!("{} is a span of the line of {}, whose tension is not found alone", connector.name, assembly.name);
-        return Err(Diagnostic::error(text, args.place(NAMED)).help("&STATUS ASSEMBLIES reports the line"));
+        return Err(Diagnostic::error(text, args.position(NAMED)).help("&STATUS ASSEMBLIES reports the line"));
     }
-    Ok((connector, find(&job.model.classes, &connector.class, "class", args.place(NAMED))?))
+    Ok((connector, find(&job.model.classes, &connector.class, "class", args.position(NAMED))?))
 }
 
 /// The configuration a record asks for: the ends as they are, or that of one option.
@@ -156,14 +157,14 @@ fn dispose(job: &mut Job, class: &str, (command, next): (&str, &str), mut made: 
 }
 
 fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (args, span) = (&call.args, call.args.place(NAMED));
+    let (args, span) = (&call.args, call.args.position(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let name = class.name.clone();
     let held = condition(args)?;
     if let Some(vary) = args.option(&vary::VARY) {
         let (made, missing) = vary::tabulate(job, (connector, class), vary, held, args)?;
         let effect = dispose(job, &name, ("TABLE", "REPORT: all rows; PLOT draws columns"), made, span);
-        missing.into_iter().for_each(|(text, place)| job.warn(text, place));
+        missing.into_iter().for_each(|(text, position)| job.warn(text, position));
         return Ok(effect);
     }
     if let Some(option) = args.options.first() {
@@ -182,7 +183,7 @@ fn table(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 fn geometry(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let (args, span) = (&call.args, call.args.place(NAMED));
+    let (args, span) = (&call.args, call.args.position(NAMED));
     let (connector, class) = find_connector(job, args)?;
     let (name, condition) = (class.name.clone(), condition(args)?);
     let points = args.option_integer(&POINTS).and_then(|n| usize::try_from(n).ok());

@@ -95,8 +95,8 @@ const MORE: ValueSpec = ValueSpec::choice::<Dof>("DOF", "a further one").or("no 
 
 /// The degrees of freedom one -IGNORE holds, each with the number of its body.
 fn ignored_dofs(model: &Model, given: &Given) -> Outcome<Vec<(usize, usize)>> {
-    let place = given.first_place();
-    let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", place)?;
+    let position = given.first_place();
+    let body = find(&model.bodies, given.first_word().unwrap_or_default(), "body", position)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).unwrap_or(0);
     let dofs = given.choices::<Dof>(const { IGNORE.choice("DOF") });
     Ok(dofs.map(|dof| (index, dof.index())).collect())
@@ -162,7 +162,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             Diagnostic::error("there is no body to bring to rest", call.args.span).help("&DESCRIBE BODY describes one")
         );
     }
-    let before: Vec<Place> = job.model.bodies.values().map(|body| body.place).collect();
+    let before: Vec<Place> = job.model.bodies.values().map(|body| body.position).collect();
     let settled = find_equilibrium_with_rebuilds(&mut job.model, &options)
         .map_err(|e| to_diagnostic(e, &job.model, call.args.span, job.units))?;
     let forces = tables::by_category(&settled.system, &settled.state, &|_| true)

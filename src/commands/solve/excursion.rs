@@ -128,7 +128,7 @@ const NAMED: DatumKey<str> = MOVE_SPEC.word(BODY.name);
 
 /// The body a record names, and its number.
 fn body<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Body, usize)> {
-    let found = find(&job.model.bodies, args.word(NAMED).unwrap_or_default(), "body", args.place(NAMED))?;
+    let found = find(&job.model.bodies, args.word(NAMED).unwrap_or_default(), "body", args.position(NAMED))?;
     let index = job.model.bodies.get_index_of(&Model::key(&found.name)).unwrap_or(0);
     Ok((found, index))
 }
@@ -162,7 +162,7 @@ fn systems(job: &Job, args: &Args) -> Outcome<Systems> {
         }
         removed.push(connector.name.clone());
     }
-    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(NAMED), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.position(NAMED), job.units);
     let system = System::new(&job.model, &removed).map_err(wrong)?;
     let intact = (!removed.is_empty()).then(|| System::new(&job.model, &[])).transpose().map_err(wrong)?;
     Ok(Systems { system, intact, removed })
@@ -173,7 +173,7 @@ fn dispose(job: &mut Job, (command, next): (&str, &str), mut made: Table, args: 
     let acting = job.model.connectors.values().filter(|c| c.active).map(|c| c.name.as_str());
     made.add_notes(job.model.idealisations(acting));
     note_caveats(&job.model, std::slice::from_mut(&mut made));
-    raise(job, &made, args.place(NAMED));
+    raise(job, &made, args.position(NAMED));
     let residual = if args.has(&FREE) || command == WATCH_SPEC.name {
         "bodies that move are at rest within the tolerance of &EQUI"
     } else {
@@ -185,7 +185,7 @@ fn dispose(job: &mut Job, (command, next): (&str, &str), mut made: Table, args: 
 }
 
 fn poses(job: &Job) -> Vec<Pose> {
-    job.model.bodies.values().map(|b| Pose::from_place(&b.place)).collect()
+    job.model.bodies.values().map(|b| Pose::from_place(&b.position)).collect()
 }
 
 fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -195,7 +195,7 @@ fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let several = range(args)?;
     if let (Some(option), false) = (args.option(&ANGLES), given.is_empty()) {
         return Err(Diagnostic::error("directions are given twice", option.span)
-            .other(args.place(const { MOVE_SPEC.number(ANGLE.name) }), "first given here"));
+            .other(args.position(const { MOVE_SPEC.number(ANGLE.name) }), "first given here"));
     }
     let one = several.is_none() && given.len() < 2;
     let unused = if one { AT } else { ROWS };
@@ -208,7 +208,8 @@ fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let direction = directions.first().copied().unwrap_or(0.0);
     let path = ExcursionPath { body: index, direction, free: args.has(&FREE), most: args.option_number(&DISTANCE) };
     let start = poses(job);
-    let asked = ExcursionTableOptions { name: &body.name, place: &body.place, start: &start, path, units: job.units };
+    let asked =
+        ExcursionTableOptions { name: &body.name, position: &body.position, start: &start, path, units: job.units };
     let made = if one {
         let rows = args.option_integer(&ROWS);
         table_along_direction(&systems, &asked, rows.and_then(|n| usize::try_from(n).ok()).unwrap_or(30))
@@ -222,7 +223,7 @@ fn run_excursion(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .collect();
         table_of_directions(&systems, &asked, &directions, &at)
     };
-    let made = made.map_err(|e| to_diagnostic(e, &job.model, args.place(NAMED), job.units))?;
+    let made = made.map_err(|e| to_diagnostic(e, &job.model, args.position(NAMED), job.units))?;
     let next =
         if one { "REPORT: all rows; PLOT Excursion Restoring" } else { "REPORT; PLOT Direction Excursion -POLAR" };
     Ok(dispose(job, (MOVE_SPEC.name, next), made, args))
@@ -236,7 +237,7 @@ fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let directions = range(args)?.unwrap_or_else(|| around.collect());
     let mut systems = systems(job, args)?;
     let (free, start) = (args.has(&FREE), poses(job));
-    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.place(NAMED), job.units);
+    let wrong = |e: SolveError| to_diagnostic(e, &job.model, args.position(NAMED), job.units);
     let asked_for = (index, force, free);
     let found = watch(&mut systems.system, &start, asked_for, &directions).map_err(wrong)?;
     let intact = match &mut systems.intact {
@@ -244,7 +245,8 @@ fn run_watch_circle(job: &mut Job, call: &Call) -> Outcome<Effect> {
         None => None,
     };
     let path = ExcursionPath { body: index, direction: 0.0, free, most: None };
-    let asked = ExcursionTableOptions { name: &body.name, place: &body.place, start: &start, path, units: job.units };
+    let asked =
+        ExcursionTableOptions { name: &body.name, position: &body.position, start: &start, path, units: job.units };
     let made = circle((&asked, force), &systems, &found, intact.as_ref());
     Ok(dispose(job, (WATCH_SPEC.name, "REPORT: all rows; PLOT X Y: the watch circle"), made, args))
 }

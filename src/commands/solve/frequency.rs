@@ -280,7 +280,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let mut model = job.model.clone();
     if let Some(name) = args.word(ENV) {
-        model.environment = find(&job.model.environments, name, "environment", args.place(ENV))?.clone();
+        model.environment = find(&job.model.environments, name, "environment", args.position(ENV))?.clone();
     }
     let trains = seas(job, &model.environment, args.span)?;
     let mut linear = linear(job, &model, args.span)?;

@@ -55,7 +55,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const IN: DatumKey<str> = LINES_SPEC.word("IN");
     const OUT: DatumKey<str> = LINES_SPEC.word("OUT");
     let args = &call.args;
-    let (name, span) = (args.word(IN).unwrap_or_default(), args.place(IN));
+    let (name, span) = (args.word(IN).unwrap_or_default(), args.position(IN));
     let path = crate::commands::settings::device::existing(job, name, span)?;
     let unusable = |error: InputError| {
         let mut made = Diagnostic::error(format!("{name} cannot be used: {error}"), span);
@@ -68,10 +68,11 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
         crate::commands::settings::device::open_input(job, &path).map_err(|e| InputError::Unreadable(e.to_string()));
     let mut input = opened.and_then(Input::open).map_err(unusable)?;
     let out = file::with_csv_ending(args.word(OUT).unwrap_or_default());
-    let refused = |error| file::to_diagnostic(&error, args.place(OUT));
-    let place = job.output.folder.place(&out).map_err(refused)?;
-    let lost = |error: csv::Error| Diagnostic::error(format!("{}: {error}", place.path().display()), args.place(OUT));
-    let mut writer = csv::Writer::from_writer(place.begin().map_err(refused)?);
+    let refused = |error| file::to_diagnostic(&error, args.position(OUT));
+    let position = job.output.folder.position(&out).map_err(refused)?;
+    let lost =
+        |error: csv::Error| Diagnostic::error(format!("{}: {error}", position.path().display()), args.position(OUT));
+    let mut writer = csv::Writer::from_writer(position.begin().map_err(refused)?);
     writer.write_record(heads(&input.heads).iter().map(|head| guard_formula(head).into_owned())).map_err(lost)?;
     let width = input.heads.len();
     let mut tally = SolvedCounts::default();
@@ -98,7 +99,7 @@ fn lines(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
         job.notices.push(Diagnostic::plain(Severity::Warning, text));
     }
-    Ok(Effect::Say(tally.summary(name, &place, job)))
+    Ok(Effect::Say(tally.summary(name, &position, job)))
 }
 
 fn solve(row: &InputRow) -> Result<EndForces, RowError> {
@@ -183,7 +184,7 @@ impl SolvedCounts {
     }
 
     /// The lines by regime, and how many rows were solved and refused.
-    fn summary(&self, name: &str, place: &FilePlace, job: &Job) -> String {
+    fn summary(&self, name: &str, position: &FilePlace, job: &Job) -> String {
         let regimes: Vec<_> = self.regimes.iter().collect();
         let table = Table::new("")
             .with_rows(&regimes)
@@ -192,7 +193,7 @@ impl SolvedCounts {
             .build();
         let mut text = if self.solved > 0 { page::grid(&table, job.units, None) } else { Vec::new() };
         text.push(format!("{name}: {} rows solved, {} refused", self.solved, self.refused));
-        text.push(format!("wrote {}", place.path().display()));
+        text.push(format!("wrote {}", position.path().display()));
         text.join("\n")
     }
 }

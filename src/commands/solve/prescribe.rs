@@ -75,9 +75,9 @@ const KINDS: [OptionSpec; 4] = [SINUSOID, RAO, FILE_OPTION, FREE];
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
-    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.place(BODY))?;
+    let body = find(&job.model.bodies, args.word(BODY).unwrap_or_default(), "body", args.position(BODY))?;
     if body.junction.is_some() {
-        return Err(Diagnostic::error(format!("{} is a junction, not a body", body.name), args.place(BODY)));
+        return Err(Diagnostic::error(format!("{} is a junction, not a body", body.name), args.position(BODY)));
     }
     let key = Model::key(&body.name);
     let kind = kind(args)?;
@@ -102,8 +102,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let given = build_prescribed(&moved, None).map_err(wrong)?;
         let start = given.map(|g| g.motion_at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
         let near = rows.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|r| Place::new(r.1));
-        moved.previous = moved.place;
-        moved.place = start.pose.place(&near.unwrap_or_default());
+        moved.previous = moved.position;
+        moved.position = start.pose.position(&near.unwrap_or_default());
     }
     job.model.bodies.insert(key, moved);
     Ok(Effect::Done)

@@ -36,7 +36,7 @@ pub(crate) struct WorstLine {
     /// Tension at the first end (N).
     pub tension: Option<f64>,
     /// Where and when, behind the values.
-    pub place: String,
+    pub position: String,
 }
 
 impl WorstLine {
@@ -54,7 +54,7 @@ impl WorstLine {
         if self.ratio.is_none() {
             parts.push("no break given".into());
         }
-        format!("{}: {}{}", self.name, parts.join(", "), self.place)
+        format!("{}: {}{}", self.name, parts.join(", "), self.position)
     }
 }
 
@@ -115,7 +115,10 @@ pub(crate) fn worst_in_state<'a>(list: impl Iterator<Item = (&'a str, &'a Connec
             name: name.to_string(),
             ratio: summary.ratio,
             tension: summary.tension,
-            place: summary.critical.filter(|segment| *segment > 1).map_or(String::new(), |s| format!(", segment {s}")),
+            position: summary
+                .critical
+                .filter(|segment| *segment > 1)
+                .map_or(String::new(), |s| format!(", segment {s}")),
         })
     };
     list.filter_map(line).reduce(WorstLine::worse)
@@ -125,7 +128,7 @@ pub(crate) fn worst_in_state<'a>(list: impl Iterator<Item = (&'a str, &'a Connec
 pub(crate) fn farthest_move(before: &[Place], model: &Model, units: UnitSystem) -> String {
     let moved =
         before.iter().zip(model.bodies.values()).filter(|(_, body)| body.junction.is_none()).map(|(from, body)| {
-            let [x, y, z] = std::array::from_fn(|i| body.place.shift[i] - from.shift[i]);
+            let [x, y, z] = std::array::from_fn(|i| body.position.shift[i] - from.shift[i]);
             (body.name.as_str(), [x, y, z], x.hypot(y))
         });
     let far = |m: &(&str, [f64; 3], f64)| m.2.hypot(m.1[2]);
@@ -159,7 +162,7 @@ pub(crate) fn worst_in_run(run: &Run) -> Option<WorstLine> {
             name: name.to_string(),
             ratio: breaking.map(|breaking| most.value / breaking),
             tension: Some(most.value),
-            place: format!(", at {:.1} s", most.time),
+            position: format!(", at {:.1} s", most.time),
         })
     };
     run.statistics.results().filter_map(line).reduce(WorstLine::worse)
@@ -171,7 +174,7 @@ pub(crate) fn excursion_in_run(run: &Run, units: UnitSystem) -> String {
     let mut most: Option<(&str, [f64; 3], f64)> = None;
     let far = |gone: &[f64; 3]| gone[0].hypot(gone[1]).hypot(gone[2]);
     for (body, (name, key)) in layout.bodies.iter().enumerate() {
-        let Some(start) = run.model.bodies.get(key).filter(|b| b.junction.is_none()).map(|b| b.place.shift) else {
+        let Some(start) = run.model.bodies.get(key).filter(|b| b.junction.is_none()).map(|b| b.position.shift) else {
             continue;
         };
         let at = layout.body(body);
@@ -219,10 +222,10 @@ pub(crate) fn largest_operators(linear: &LinearSystem, made: &Operators, units: 
         let unit = Dim::Length.label(units);
         match most {
             None => "none".into(),
-            Some((size, place)) if is_shift => format!("{size:.3} {unit}/{unit}, {place}"),
+            Some((size, position)) if is_shift => format!("{size:.3} {unit}/{unit}, {position}"),
             // amplitude of the rotation in a wave with an amplitude of one length of the user's
-            Some((size, place)) => {
-                format!("{:.3} deg/{unit}, {place}", size.to_degrees() * Dim::Length.to_si(1.0, units))
+            Some((size, position)) => {
+                format!("{:.3} deg/{unit}, {position}", size.to_degrees() * Dim::Length.to_si(1.0, units))
             }
         }
     })
@@ -243,8 +246,8 @@ pub(crate) fn worst_in_sea(
         let breaking =
             segment_at_first_end(model, name).map(|segment| segment.breaking).filter(|b| b.is_finite() && *b > 0.0);
         let ratio = breaking.map(|breaking| most / breaking);
-        let place = ", mean and extreme of -PROBABILITY, else the most probable of three hours".to_string();
-        Some(WorstLine { name: name.clone(), ratio, tension: Some(most), place })
+        let position = ", mean and extreme of -PROBABILITY, else the most probable of three hours".to_string();
+        Some(WorstLine { name: name.clone(), ratio, tension: Some(most), position })
     };
     names.iter().filter_map(line).reduce(WorstLine::worse)
 }
@@ -319,7 +322,7 @@ mod tests {
     use super::*;
 
     fn line(name: &str, ratio: Option<f64>, tension: f64) -> WorstLine {
-        WorstLine { name: name.into(), ratio, tension: Some(tension), place: String::new() }
+        WorstLine { name: name.into(), ratio, tension: Some(tension), position: String::new() }
     }
 
     #[test]

@@ -372,7 +372,7 @@ pub(crate) fn reset(run: Option<&Run>, model: &mut Model, time: f64) -> Option<V
         let at = history.layout.body(body);
         let numbers = row.get(at..at + 12)?;
         let found = model.bodies.get_mut(key)?;
-        found.place = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
+        found.position = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
         velocities.push((model.bodies.get_index_of(key)?, Six::from_column_slice(numbers.get(6..)?)));
     }
     Some(velocities)

@@ -109,7 +109,7 @@ pub fn tabulate(
     let parameter = vary.choice(const { VARY.choice("NAME") });
     let parameter: Parameter = parameter.ok_or_else(|| Diagnostic::error("-VARY lacks its NAME", vary.span))?;
     let (unit, around) = (parameter.dim().label(job.units), job.model.surroundings());
-    let place = job.model.placement(connector);
+    let position = job.model.placement(connector);
     if parameter.is_condition()
         && let Some(other) = args.options.iter().find(|given| !given.is(vary.option))
     {
@@ -121,8 +121,8 @@ pub fn tabulate(
     for (given, span) in vary.values.iter().filter_map(|v| Some((v.number()?, v.span))) {
         let value = value(parameter, given, span, job)?;
         let named = format!("{} {} {unit}", parameter.name(), number_in_full(given));
-        let (place, condition) = apply(parameter, value, &place, held);
-        let line = class.line(&place, &around);
+        let (position, condition) = apply(parameter, value, &position, held);
+        let line = class.line(&position, &around);
         let line = match parameter.change(value) {
             Some(change) => line.and_then(|l| l.with_change(change)),
             None => line,
@@ -143,9 +143,9 @@ pub fn tabulate(
     if let (true, Some((error, span))) = (notes.is_empty(), first) {
         return Err(to_diagnostic(error, span, connector, job.units));
     }
-    let mut table = with_columns(facts(parameter, class, connector, &place, held), parameter, &rows);
+    let mut table = with_columns(facts(parameter, class, connector, &position, held), parameter, &rows);
     table.notes = merge_remarks(&notes);
-    if place.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
+    if position.bathymetry.is_some() && matches!(parameter, Parameter::Depth | Parameter::Slope) {
         table.note("the line lies on a plane through its anchor here, not on the bathymetry");
     }
     table.add_notes(missing.iter().map(|(text, _)| text.clone()));
@@ -174,38 +174,38 @@ fn value(parameter: Parameter, given: f64, span: Span, job: &Job) -> Outcome<f64
 }
 
 /// Where the ends are, and the configuration, with a value of the parameter.
-fn apply(parameter: Parameter, value: f64, place: &Placement, held: Condition) -> (Placement, Condition) {
-    let [x, y, _] = place.fairlead;
-    let place = place.clone();
+fn apply(parameter: Parameter, value: f64, position: &Placement, held: Condition) -> (Placement, Condition) {
+    let [x, y, _] = position.fairlead;
+    let position = position.clone();
     match parameter {
-        Parameter::Length => (Placement { first_length: Some(value), ..place }, held),
-        Parameter::Fairlead => (Placement { fairlead: [x, y, value], ..place }, held),
+        Parameter::Length => (Placement { first_length: Some(value), ..position }, held),
+        Parameter::Fairlead => (Placement { fairlead: [x, y, value], ..position }, held),
         Parameter::Depth => {
-            let other = place.other.map(|[x, y, _]| [x, y, -value]);
-            (Placement { other, bathymetry: None, ..place }, held)
+            let other = position.other.map(|[x, y, _]| [x, y, -value]);
+            (Placement { other, bathymetry: None, ..position }, held)
         }
-        Parameter::Friction | Parameter::Slope | Parameter::Weight | Parameter::Stiffness => (place, held),
-        Parameter::Distance => (place, Condition::Distance(value)),
-        Parameter::Horizontal => (place, Condition::Horizontal(value)),
-        Parameter::Tension => (place, Condition::Tension(value)),
+        Parameter::Friction | Parameter::Slope | Parameter::Weight | Parameter::Stiffness => (position, held),
+        Parameter::Distance => (position, Condition::Distance(value)),
+        Parameter::Horizontal => (position, Condition::Horizontal(value)),
+        Parameter::Tension => (position, Condition::Tension(value)),
     }
 }
 
 /// The table without columns: what is varied, what is held.
-fn facts(parameter: Parameter, class: &Class, connector: &Connector, place: &Placement, held: Condition) -> Table {
-    let [_, _, fairlead] = place.fairlead;
+fn facts(parameter: Parameter, class: &Class, connector: &Connector, position: &Placement, held: Condition) -> Table {
+    let [_, _, fairlead] = position.fairlead;
     let title = format!("Line {} with Varied {}", connector.name, parameter.name());
     let mut table = Table::new(title).fact("Model", Idealisation::QuasiStatic, Dim::None);
     if parameter != Parameter::Fairlead {
         table = table.fact("Fairlead Above Mean Water", fairlead, Dim::Length);
     }
     if parameter != Parameter::Length {
-        let first = place.first_length.or_else(|| class.first_length());
+        let first = position.first_length.or_else(|| class.first_length());
         table = table.fact("Length of First Segment", first, Dim::Length);
     }
     if !parameter.is_condition() {
         table = match held {
-            Condition::Placed => table.fact("Horizontal Distance", place.span().0, Dim::Length),
+            Condition::Placed => table.fact("Horizontal Distance", position.span().0, Dim::Length),
             Condition::Distance(x) => table.fact("Horizontal Distance", x, Dim::Length),
             Condition::Horizontal(force) => table.fact("Horizontal Force", force, Dim::Force),
             Condition::Tension(tension) => table.fact("Tension at Top", tension, Dim::Force),

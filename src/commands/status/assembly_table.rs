@@ -25,7 +25,7 @@ struct HookRow<'m> {
     /// The set, on the row of its hook.
     set: Option<&'m str>,
     /// Where the hook or the node of a line is (m, global).
-    place: [f64; 3],
+    position: [f64; 3],
     /// The line; `None` on the row of the hook.
     line: Option<HookLine<'m>>,
 }
@@ -64,7 +64,7 @@ pub fn assemblies(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem)
         .text("Element", |row| row.line.as_ref().map(|l| l.name))
         .text("Role", |row| row.line.as_ref().map_or("HOOK", |l| l.role))
         .text("Status", |row| row.line.as_ref().map(|l| l.status))
-        .columns("Hook or Node", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.place)
+        .columns("Hook or Node", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| row.position)
         .column("Length", "Unstretched", Dim::Length, Digits::Decimals(4), |row| {
             row.line.as_ref().and_then(|l| l.unstretched)
         })
@@ -168,8 +168,8 @@ fn hook_rows<'m>(
     boom: &str,
     units: UnitSystem,
 ) -> Vec<HookRow<'m>> {
-    let hook = model.bodies.get(&Model::key(&assembly.name)).map(|b| b.place.shift).unwrap_or_default();
-    let mut rows = vec![HookRow { set: Some(&assembly.name), place: hook, line: None }];
+    let hook = model.bodies.get(&Model::key(&assembly.name)).map(|b| b.position.shift).unwrap_or_default();
+    let mut rows = vec![HookRow { set: Some(&assembly.name), position: hook, line: None }];
     for name in assembly.members() {
         let Some(connector) = model.connectors.get(&Model::key(name)) else { continue };
         let [node, end] = model.end_poses(connector).map(|p| p.origin);
@@ -189,7 +189,7 @@ fn hook_rows<'m>(
             apart: end - node,
             summary,
         };
-        rows.push(HookRow { set: None, place: node.into(), line: Some(line) });
+        rows.push(HookRow { set: None, position: node.into(), line: Some(line) });
     }
     rows
 }

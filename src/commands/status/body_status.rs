@@ -57,7 +57,7 @@ pub const ABOUT: OptionSpec =
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.position(super::WHAT), job.units);
     let system = System::new(&job.model, &[]).map_err(wrong)?;
     let state = system.state(&job.model);
     let mut table = tables::by_category(&system, &state, fits).map_err(wrong)?;
@@ -76,7 +76,7 @@ pub fn forces(job: &Job, call: &Call, fits: &dyn Fn(&str) -> bool) -> Outcome<Ve
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.position(super::WHAT), job.units);
     let linear = LinearSystem::new(&job.model).map_err(wrong)?;
     Ok(frequency::tables::modes(&linear).map_err(wrong)?.into())
 }
@@ -86,7 +86,7 @@ pub fn modes(job: &Job, call: &Call) -> Outcome<Vec<Table>> {
 /// # Errors
 /// A connector or body that cannot be evaluated.
 pub fn stiffness(job: &Job, call: &Call, chosen: &NameFilter) -> Outcome<Vec<Table>> {
-    let wrong = |e| to_diagnostic(e, &job.model, call.args.place(super::WHAT), job.units);
+    let wrong = |e| to_diagnostic(e, &job.model, call.args.position(super::WHAT), job.units);
     let about: Option<Position> =
         call.args.option(&ABOUT).map(|given| given.numbers_or_zero(const { ABOUT.numbers(["X", "Y", "Z"]) }));
     let system = System::new(&job.model, &[]).map_err(wrong)?;

@@ -21,7 +21,7 @@ pub static WEIGHT: StatusKind =
 /// `&STATUS PIECES`.
 pub static PIECES: StatusKind = StatusKind::new("PIECES", "pieces of hulls", |query, _| {
     let (model, fits) = (query.model(), query.fits());
-    let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(query.place(), query.job.units))?;
+    let added = member::added_mass(model, &fits).map_err(|e| e.diagnostic(query.position(), query.job.units))?;
     Ok(std::iter::once(pieces(model, &fits)).chain(member::members(model, &fits)).chain(added).collect())
 })
 .with_names(&[EntityKind::Piece, EntityKind::Body, EntityKind::Part]);
@@ -141,7 +141,7 @@ pub fn hydrostatics(model: &Model, fits: Fits, units: UnitSystem) -> Vec<Table> 
 
 fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     let (floating, hull, pose) =
-        (Floating::at_rest(model, body)?, Hull::new(model, body)?, Pose::from_place(&body.place));
+        (Floating::at_rest(model, body)?, Hull::new(model, body)?, Pose::from_place(&body.position));
     let mass = floating.mass;
     let weight = mass.mass * model.defaults.gravity;
     let (mut stiffness, mut wrench) = (Matrix6::zeros(), Six::zeros());
@@ -156,7 +156,7 @@ fn of_body(model: &Model, body: &Body) -> Result<Vec<Table>, ClassError> {
     }
     let arm = pose.axes * mass.centre;
     let mut table = Table::new(format!("Hydrostatics of {}", body.name)).fact("Weight", weight, Dim::Force);
-    table = place(table, "Center of Gravity", (pose.origin + arm).into(), arm.norm());
+    table = position(table, "Center of Gravity", (pose.origin + arm).into(), arm.norm());
     let found = hull.as_ref().and_then(|h| Hydrostatics::new(&h.wet(&pose), &pose, mass.centre, h.water_weight()));
     let size = found.map_or(arm.norm(), |f| f.volume.cbrt());
     if let Some(found) = &found {
@@ -215,7 +215,7 @@ pub(crate) fn round_to_zero(value: f64, size: f64) -> f64 {
 }
 
 /// The facts of a place.
-fn place(mut table: Table, name: &str, at: [f64; 3], size: f64) -> Table {
+fn position(mut table: Table, name: &str, at: [f64; 3], size: f64) -> Table {
     for (axis, value) in ["X", "Y", "Z"].into_iter().zip(at) {
         table = table.fact(&format!("{name} {axis}"), round_to_zero(value, size), Dim::Length);
     }
@@ -224,7 +224,7 @@ fn place(mut table: Table, name: &str, at: [f64; 3], size: f64) -> Table {
 
 fn facts(mut table: Table, found: &Hydrostatics, size: f64) -> Table {
     table = table.fact("Displacement", found.displacement, Dim::Force).fact("Volume", found.volume, Dim::Volume);
-    table = place(table, "Center of Buoyancy", found.centre_of_buoyancy.into(), size);
+    table = position(table, "Center of Buoyancy", found.centre_of_buoyancy.into(), size);
     table = table.fact("Waterplane Area", found.plane_area, Dim::Area);
     let flotation = found.centre_of_flotation.map_or([None; 2], |at| at.map(|x| Some(round_to_zero(x, size))));
     for (axis, value) in ["X", "Y"].into_iter().zip(flotation) {

@@ -68,7 +68,7 @@ fn report(model: &Model, body: &Body) -> Result<Table, ClassError> {
     }
     let whole = Mass::from_parts(model.parts_of(body), gravity).combine(&contents);
     rows.push(of_mass("Total Weight", &whole));
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let hull = Hull::new(model, body)?;
     let found = hull.as_ref().and_then(|h| Hydrostatics::new(&h.wet(&pose), &pose, whole.centre, h.water_weight()));
     let mut table = Table::new(title(body));

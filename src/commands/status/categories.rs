@@ -46,13 +46,13 @@ fn categories(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         for part in model.parts_of(body) {
             for weight in &part.weights {
                 let [weights, _] = sums.entry((&body.name, &weight.category)).or_default();
-                weights.add(weight.weight * weight.multiplier, part.place.apply(weight.at));
+                weights.add(weight.weight * weight.multiplier, part.position.apply(weight.at));
             }
             for piece in &part.pieces {
                 if let (Some(category), Some((at, volume))) = (&piece.category, piece.shape.member_volume()) {
                     let share = piece.permeability * model.member_factor(&part.name, piece, Attribute::Buoyancy);
                     let [_, buoyancy] = sums.entry((&body.name, category)).or_default();
-                    buoyancy.add(water_weight * volume * share, part.place.apply(at));
+                    buoyancy.add(water_weight * volume * share, part.position.apply(at));
                 }
             }
             for load in model.loads.iter().filter(|l| Model::key(&l.part) == Model::key(&part.name)) {
@@ -60,7 +60,7 @@ fn categories(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
                     let factor =
                         model.load_factor(&part.name, load.group.as_deref(), &load.category, Attribute::Buoyancy);
                     let [_, buoyancy] = sums.entry((&body.name, &load.category)).or_default();
-                    buoyancy.add(factor * force, part.place.apply(load.at));
+                    buoyancy.add(factor * force, part.position.apply(load.at));
                 }
             }
         }

@@ -105,7 +105,7 @@ fn contents(model: &Model, fits: &dyn Fn(&str) -> bool, units: UnitSystem) -> Ta
 fn holes(model: &Model, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
     let level = model.surroundings().tide;
     let rows: Vec<_> = model.holes.values().filter(|hole| fits(&hole.name)).collect();
-    let place = |name: &Option<String>| {
+    let position = |name: &Option<String>| {
         name.as_ref().and_then(|name| model.points.get(&Model::key(name))).map(|point| model.global(point))
     };
     let of = |hole: &str| {
@@ -120,9 +120,11 @@ fn holes(model: &Model, fits: &dyn Fn(&str) -> bool) -> Outcome<Vec<Table>> {
             .text("Compartments", |hole| of(&hole.name))
             .text("Point", |hole| hole.point.clone().unwrap_or_default())
             .columns("Global", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |hole| {
-                place(&hole.point).map_or([None; 3], |at| at.map(Some))
+                position(&hole.point).map_or([None; 3], |at| at.map(Some))
             })
-            .column("Above", "Water", Dim::Length, Digits::Usual, |hole| place(&hole.point).map(|[_, _, z]| z - level))
+            .column("Above", "Water", Dim::Length, Digits::Usual, |hole| {
+                position(&hole.point).map(|[_, _, z]| z - level)
+            })
             .build(),
     ])
 }

@@ -42,8 +42,8 @@ fn opposite(from: f64) -> f64 {
 /// The sum of currents at the surface, and at half depth and at the bottom where the depth is known.
 fn depths(mut table: Table, steady: &Steady) -> Table {
     let deep = steady.around.depth.map(|d| d + steady.around.tide);
-    let places = [("at surface", Some(0.0)), ("at half depth", deep.map(|d| 0.5 * d)), ("at bottom", deep)];
-    for (name, depth) in places {
+    let positions = [("at surface", Some(0.0)), ("at half depth", deep.map(|d| 0.5 * d)), ("at bottom", deep)];
+    for (name, depth) in positions {
         let Some(depth) = depth else { continue };
         let velocity = steady.current.at_depth(depth).0;
         table = table.fact(&format!("Current {name}"), velocity.norm(), Dim::Velocity);

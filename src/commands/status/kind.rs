@@ -90,7 +90,7 @@ impl<'a> Query<'a> {
     }
 
     /// The place of the kind's word.
-    pub fn place(&self) -> Span {
-        self.call.args.place(super::WHAT)
+    pub fn position(&self) -> Span {
+        self.call.args.position(super::WHAT)
     }
 }

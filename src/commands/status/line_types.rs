@@ -42,7 +42,7 @@ pub fn tables(job: &Job, data: &[Value]) -> Outcome<Vec<Table>> {
 }
 
 /// The tables of a diameter, a name or a pattern.
-fn tables_of_types(job: &Job, types: &[LineType], word: &str, place: Span) -> Outcome<Vec<Table>> {
+fn tables_of_types(job: &Job, types: &[LineType], word: &str, position: Span) -> Outcome<Vec<Table>> {
     if let Ok(value) = number::evaluate(word) {
         let diameter = Dim::Section.to_si(value, job.units);
         if diameter > 0.0 && types.iter().any(|t| t.has_values(diameter)) {
@@ -50,7 +50,7 @@ fn tables_of_types(job: &Job, types: &[LineType], word: &str, place: Span) -> Ou
         }
         let what =
             if diameter > 0.0 { "no line type has this diameter" } else { "a diameter must be greater than zero" };
-        return Err(Diagnostic::error(what, place).label(format!("this is {value}")));
+        return Err(Diagnostic::error(what, position).label(format!("this is {value}")));
     }
     Ok(types.iter().filter(|t| matches(word, &t.name)).map(formulas).collect())
 }

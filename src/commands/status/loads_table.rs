@@ -96,7 +96,7 @@ fn forces(job: &Job, chosen: &dyn Fn(&str) -> bool) -> Table {
 
 fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> {
     let floating = Floating::at_rest(model, body)?;
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let mut list = Vec::new();
     for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift] {
         let mut mine = floating.loads.iter().filter(|l| l.category() == category).peekable();

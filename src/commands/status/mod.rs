@@ -216,15 +216,18 @@ pub(super) const WHAT: DatumKey<str> = SPEC.word("WHAT");
 /// The kind that a record asks for.
 fn asked_kind(args: &Args) -> Outcome<&'static StatusKind> {
     Ok(match args.word(WHAT) {
-        Some(word) => match absent::find_report(word)
-            .filter(|_| kinds().all(|(name, ..)| !name.eq_ignore_ascii_case(word)))
-        {
-            Some((name, instead)) => {
-                return Err(Diagnostic::error(format!("&STATUS {name} of MOSES is not in windlass"), args.place(WHAT))
+        Some(word) => {
+            match absent::find_report(word).filter(|_| kinds().all(|(name, ..)| !name.eq_ignore_ascii_case(word))) {
+                Some((name, instead)) => {
+                    return Err(Diagnostic::error(
+                        format!("&STATUS {name} of MOSES is not in windlass"),
+                        args.position(WHAT),
+                    )
                     .help(*instead));
+                }
+                None => find_kind(choose(word, args.position(WHAT), "kind of &STATUS", kinds())?),
             }
-            None => find_kind(choose(word, args.place(WHAT), "kind of &STATUS", kinds())?),
-        },
+        }
         None => &model_tables::SUMMARY,
     })
 }
@@ -260,8 +263,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
     job.verdict.over_break.append(&mut verdict.over_break);
-    let place = args.place(const { SPEC.word("NAME") });
-    if open_chosen_table(job, args, &tables, (0.0, place))? {
+    let position = args.position(const { SPEC.word("NAME") });
+    if open_chosen_table(job, args, &tables, (0.0, position))? {
         return Ok(Effect::Done);
     }
     let head = job.page_head();
@@ -274,6 +277,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let units = job.units;
     send(job, args, |width| format!("{}{drawings}", page::render_all(&tables, units, &head, width)))?;
-    tables.iter().for_each(|t| raise(job, t, place));
+    tables.iter().for_each(|t| raise(job, t, position));
     Ok(Effect::Done)
 }

@@ -67,13 +67,13 @@ pub static SELECTORS: StatusKind =
     StatusKind::new("SELECTORS", "selectors", |query, _| Ok(vec![selectors(query.model(), &query.fits())]))
         .with_names(&[EntityKind::Selector]);
 
-fn place_columns<'r, R>(table: TableBuilder<'r, R>, place: impl Fn(&'r R) -> &'r Place) -> TableBuilder<'r, R> {
-    table.columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| place(row).shift).columns(
+fn place_columns<'r, R>(table: TableBuilder<'r, R>, position: impl Fn(&'r R) -> &'r Place) -> TableBuilder<'r, R> {
+    table.columns("Location", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |row| position(row).shift).columns(
         "Rotation",
         ["Roll", "Pitch", "Yaw"],
         Dim::Angle,
         Digits::Usual,
-        |row| place(row).turn,
+        |row| position(row).turn,
     )
 }
 
@@ -81,7 +81,7 @@ fn place_columns<'r, R>(table: TableBuilder<'r, R>, place: impl Fn(&'r R) -> &'r
 pub fn configuration(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
     let bodies: Vec<&Body> = model.bodies.values().filter(|b| fits(&b.name)).collect();
     let table = Table::new("Configuration").with_rows(&bodies).text("Body", |body| &body.name);
-    place_columns(table, |body| &body.place).build()
+    place_columns(table, |body| &body.position).build()
 }
 
 /// Bodies with their parts.
@@ -92,7 +92,7 @@ pub fn bodies(model: &Model, fits: &dyn Fn(&str) -> bool) -> Table {
         .with_rows(&parts)
         .text("Body", |part| &part.body)
         .text("Part", |part| &part.name);
-    place_columns(table, |part| &part.place)
+    place_columns(table, |part| &part.position)
         .column("", "Points", Dim::None, Digits::Usual, |part| {
             model.points.values().filter(|p| Model::key(&p.part) == Model::key(&part.name)).count()
         })

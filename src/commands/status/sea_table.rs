@@ -14,11 +14,11 @@ use windlass_model::{Division, Environment};
 
 /// `&STATUS SEA_SPECTRUM`.
 pub static SEA_SPECTRUM: StatusKind = StatusKind {
-    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()),
     ..StatusKind::new(
         "SEA_SPECTRUM",
         "the wave components of the seas of the environment in force, or of one kept under a name",
-        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
+        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
     )
     .with_names(&[EntityKind::Environment])
     .of_moses()

@@ -14,11 +14,11 @@ use windlass_model::Environment;
 
 /// `&STATUS WIND_SPECTRUM`.
 pub static WIND_SPECTRUM: StatusKind = StatusKind {
-    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.place()),
+    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()),
     ..StatusKind::new(
         "WIND_SPECTRUM",
         "the components of the gusts of an environment, and with -PLOT their spectrum",
-        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.place()),
+        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
     )
     .with_names(&[EntityKind::Environment])
 };

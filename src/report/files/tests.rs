@@ -139,21 +139,21 @@ fn mkdir_creates_subfolder_for_files() {
 #[test]
 fn refused_path_creates_no_file() {
     let (dir, mut job) = job();
-    assert!(matches!(job.place(dir.path().join("new").to_str().unwrap()), Err(FileError::NotOwn { .. })));
+    assert!(matches!(job.position(dir.path().join("new").to_str().unwrap()), Err(FileError::NotOwn { .. })));
     job.allow_files = true;
     let outside = |name: &str| dir.path().join(name).to_str().unwrap().to_string();
     std::fs::write(outside("mine"), "mine").unwrap();
-    assert!(matches!(job.place(&outside("mine")), Err(FileError::Exists(_))));
+    assert!(matches!(job.position(&outside("mine")), Err(FileError::Exists(_))));
     for name in ["none/x".into(), outside("none/x"), outside("mine/x")] {
-        assert!(matches!(job.place(&name), Err(FileError::NoFolder(_))), "{name}");
+        assert!(matches!(job.position(&name), Err(FileError::NoFolder(_))), "{name}");
     }
     for name in [outside(""), outside("x/"), outside(&"n".repeat(300)), "n".repeat(300), "x/".into(), "nul\0".into()] {
-        assert!(matches!(job.place(&name), Err(FileError::System { .. })), "{name}");
+        assert!(matches!(job.position(&name), Err(FileError::System { .. })), "{name}");
     }
-    let place = job.place(&outside("new")).unwrap();
-    assert!(!place.path().exists());
-    place.write(b"1").unwrap();
-    assert!(matches!(place.write(b"2"), Err(FileError::Exists(_))));
+    let position = job.position(&outside("new")).unwrap();
+    assert!(!position.path().exists());
+    position.write(b"1").unwrap();
+    assert!(matches!(position.write(b"2"), Err(FileError::Exists(_))));
     assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 3, "mine, new, and the job's folder");
     assert_eq!(std::fs::read_dir(&job.folder).unwrap().count(), 0);
 }
@@ -166,7 +166,7 @@ fn link_out_of_folder_makes_no_file_without_allow_files() {
     let outside = dir.path().join("outside");
     std::fs::create_dir(&outside).unwrap();
     std::os::unix::fs::symlink(&outside, job.folder.join("link")).unwrap();
-    assert!(matches!(job.place("link/x"), Err(FileError::NotOwn { .. })));
+    assert!(matches!(job.position("link/x"), Err(FileError::NotOwn { .. })));
     assert!(matches!(job.write("link/x", b"1"), Err(FileError::NotOwn { .. })));
     assert_eq!(std::fs::read_dir(&outside).unwrap().count(), 0);
     job.allow_files = true;
@@ -284,12 +284,12 @@ fn link_made_between_check_and_write_does_not_lead_out() {
     let (outside, sub) = (dir.path().join("outside"), job.folder.join("sub"));
     std::fs::create_dir(&outside).unwrap();
     job.make_folder("sub").unwrap();
-    let place = job.place("sub/x").unwrap();
-    let mut growing = place.begin().unwrap();
+    let position = job.position("sub/x").unwrap();
+    let mut growing = position.begin().unwrap();
     growing.write_all(b"1").unwrap();
     std::fs::rename(&sub, job.folder.join("away")).unwrap();
     std::os::unix::fs::symlink(&outside, &sub).unwrap();
-    assert!(matches!(place.write(b"1"), Err(FileError::NotOwn { .. })));
+    assert!(matches!(position.write(b"1"), Err(FileError::NotOwn { .. })));
     growing.finish().unwrap();
     assert!(job.folder.join("away/x").exists(), "it stands where it was begun");
     assert_eq!(std::fs::read_dir(&outside).unwrap().count(), 0);
@@ -339,7 +339,7 @@ fn temporary_files_of_killed_jobs_are_removed_and_others_kept() {
     for path in left.iter().chain(&others) {
         std::fs::write(path, "x").unwrap();
     }
-    let living = job.place("living").unwrap();
+    let living = job.position("living").unwrap();
     let mut living = living.begin().unwrap();
     living.write_all(b"1").unwrap();
     let next = JobFolder::new(dir.path().join("job"), None, false);

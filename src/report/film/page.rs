@@ -75,7 +75,7 @@ fn actor(actor: &Actor) -> String {
 }
 
 fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f64)) -> String {
-    let place = |at: &[f64; 3]| -> [u16; 3] { std::array::from_fn(|i| step(at[i], low[i], high[i])) };
+    let position = |at: &[f64; 3]| -> [u16; 3] { std::array::from_fn(|i| step(at[i], low[i], high[i])) };
     let state = |s: &ConnectorState| match s {
         ConnectorState::Inactive => 0u8,
         ConnectorState::SectionLoads => 1,
@@ -85,7 +85,7 @@ fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f
         ("name", string(&strand.name)),
         ("line", strand.line.to_string()),
         ("count", strand.count.to_string()),
-        ("points", shorts(strand.points.iter().flat_map(place))),
+        ("points", shorts(strand.points.iter().flat_map(position))),
         ("tensions", shorts(strand.tensions.iter().map(|t| step(*t, 0.0, tension)))),
         ("shares", shorts(strand.shares.iter().map(|t| step(*t, 0.0, share)))),
         ("states", quote_base64(strand.states.iter().map(state))),

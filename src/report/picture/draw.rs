@@ -255,16 +255,16 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
 
     /// An arrow to the north about a place: `direction` is where north lies in the picture (to the right, up).
     pub fn north(&self, at: (i32, i32), [h, v]: [f64; 2]) -> DrawOutcome<()> {
-        let place = |along: f64, across: f64| {
+        let position = |along: f64, across: f64| {
             let (x, y) = (along * h - across * v, along * v + across * h);
             let unit = f64::from(self.look.unit);
             (at.0 + (unit * x).round() as i32, at.1 - (unit * y).round() as i32)
         };
-        let half = |side: f64| vec![place(24.0, 0.0), place(-14.0, side), place(-7.0, 0.0)];
+        let half = |side: f64| vec![position(24.0, 0.0), position(-14.0, side), position(-7.0, 0.0)];
         self.area.draw(&Polygon::new(half(9.0), BLACK.filled())).map_err(to_plot_error)?;
         let other = half(-9.0);
         self.path(other.iter().chain(other.first()).copied().collect(), BLACK, 1)?;
-        let (x, y) = place(35.0, 0.0);
+        let (x, y) = position(35.0, 0.0);
         self.text("N", (x - self.look.text_width("N") / 2, y - self.px(8)), TEXT, BLACK)
     }
 
@@ -406,7 +406,7 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         labels.retain(|l| names || l.tone >= 3);
         // what is largest is named first
         labels.sort_by_key(|l| if l.tone >= 3 { 0 } else { l.tone + 1 });
-        let (placed, left_out) = sheet.place(labels);
+        let (placed, left_out) = sheet.position(labels);
         let tones = [BLACK, LINE, RGBColor(90, 90, 90), WATER.1, GROUND.1];
         for name in &placed {
             let [left, top, width, height] = name.at;

@@ -85,7 +85,7 @@ impl Sheet {
 
     /// Places names in the order given: each where it covers the least ink near its place, inside of the sheet and over
     /// no other name. Those that find no place are left out; their number is the second value.
-    pub fn place(&self, labels: Vec<Label>) -> (Vec<PlacedLabel>, usize) {
+    pub fn position(&self, labels: Vec<Label>) -> (Vec<PlacedLabel>, usize) {
         let mut placed: Vec<PlacedLabel> = Vec::new();
         let count = labels.len();
         let mut points: Vec<(i32, i32)> = labels.iter().take(MAX_LABELS).map(|label| label.at).collect();
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn labels_at_one_point_are_offset_and_hidden_ones_counted() {
         let sheet = Sheet::new([0, 0, 300, 200], (8, 16));
-        let (placed, left_out) = sheet.place((0..200).map(|n| label(&format!("N{n}"), (150, 100))).collect());
+        let (placed, left_out) = sheet.position((0..200).map(|n| label(&format!("N{n}"), (150, 100))).collect());
         assert!(placed.len() > 12 && placed.len() + left_out == 200, "{}", placed.len());
         for (i, a) in placed.iter().enumerate() {
             assert!(sheet.holds(&a.at));
@@ -185,31 +185,31 @@ mod tests {
     fn label_stands_nearer_its_own_point_than_any_other() {
         // two points four letters apart: each name on the far side of the other point
         let sheet = Sheet::new([0, 0, 300, 200], (8, 16));
-        let (placed, _) = sheet.place(vec![label("F1", (150, 100)), label("F2", (182, 100))]);
+        let (placed, _) = sheet.position(vec![label("F1", (150, 100)), label("F2", (182, 100))]);
         assert!(placed.iter().all(|p| !p.is_ambiguous), "{placed:?}");
         for name in &placed {
             let other = if name.label.text == "F1" { (182, 100) } else { (150, 100) };
             assert!(distance(&name.at, name.label.at) < distance(&name.at, other), "{placed:?}");
         }
         // of two points in nearly one place one name is ambiguous, and has a line to its point
-        let (placed, _) = sheet.place(vec![label("A", (150, 100)), label("B", (153, 100))]);
+        let (placed, _) = sheet.position(vec![label("A", (150, 100)), label("B", (153, 100))]);
         assert!(placed.iter().any(|p| p.is_ambiguous), "{placed:?}");
     }
 
     #[test]
     fn label_keeps_clear_of_lines() {
         let mut sheet = Sheet::new([0, 0, 300, 200], (8, 16));
-        assert_eq!(sheet.place(vec![label("NAME", (150, 100))]).0[0].at[0], 158);
+        assert_eq!(sheet.position(vec![label("NAME", (150, 100))]).0[0].at[0], 158);
         // a stroke to the right of the place sends it elsewhere
         sheet.mark(&[(150, 100), (290, 100)]);
-        let (placed, _) = sheet.place(vec![label("NAME", (150, 100))]);
+        let (placed, _) = sheet.position(vec![label("NAME", (150, 100))]);
         assert_eq!(sheet.hidden(placed[0].at), 0.0, "{placed:?}");
     }
 
     #[test]
     fn terminal_label_is_aligned_to_whole_characters() {
         let sheet = Sheet::new([0, 0, 80, 80], (2, 4));
-        for (placed, at) in [(41, 43), (17, 3)].map(|at| (sheet.place(vec![label("AB", at)]).0, at)) {
+        for (placed, at) in [(41, 43), (17, 3)].map(|at| (sheet.position(vec![label("AB", at)]).0, at)) {
             assert!(placed[0].at[0] % 2 == 0 && placed[0].at[1] % 4 == 0, "{at:?} {placed:?}");
             assert_eq!(placed[0].at[1] / 4, at.1 / 4);
         }

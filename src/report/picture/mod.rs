@@ -53,7 +53,7 @@ pub struct Picture {
 
 /// The corners of a rectangle at an elevation about all that a scene holds, with a little room.
 fn corners_around(scene: &Scene, z: f64) -> [Position; 4] {
-    let extent = Extent::from_points(scene.places().map(|[x, y, _]| [x, y]));
+    let extent = Extent::from_points(scene.positions().map(|[x, y, _]| [x, y]));
     let extent = extent.unwrap_or(Extent { low: [0.0; 2], high: [0.0; 2] });
     let [w, h] = extent.size().map(|s| 0.05 * s);
     let ([x0, y0], [x1, y1]) = (extent.low, extent.high);
@@ -63,20 +63,21 @@ fn corners_around(scene: &Scene, z: f64) -> [Position; 4] {
 impl Picture {
     /// What a view reaches; water and ground belong to every view but the plan.
     fn extent(&self, view: &View) -> Result<Extent, PlotError> {
-        if let Some(far) = self.scene.places().find(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE_M))
+        if let Some(far) =
+            self.scene.positions().find(|p| p.iter().any(|c| !c.is_finite() || c.abs() > MAX_COORDINATE_M))
         {
             let size = |i: usize| far.get(i).copied().unwrap_or(f64::NAN);
             return Err(PlotError::Range(size(0), size(1)));
         }
-        let mut places: Vec<Position> = self.scene.places().collect();
-        let first = *places.first().ok_or(PlotError::Empty)?;
+        let mut positions: Vec<Position> = self.scene.positions().collect();
+        let first = *positions.first().ok_or(PlotError::Empty)?;
         let levels = [Some(self.scene.surface), self.scene.bottom].into_iter().flatten();
         match view.kind {
             ViewKind::Plan => {}
-            ViewKind::Elevation => places.extend(levels.map(|z| [first[0], first[1], z])),
-            ViewKind::Axonometric => places.extend(levels.flat_map(|z| corners_around(&self.scene, z))),
+            ViewKind::Elevation => positions.extend(levels.map(|z| [first[0], first[1], z])),
+            ViewKind::Axonometric => positions.extend(levels.flat_map(|z| corners_around(&self.scene, z))),
         }
-        Extent::from_points(places.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
+        Extent::from_points(positions.into_iter().map(|at| view.project(at))).ok_or(PlotError::Empty)
     }
 
     /// The picture as a file, by the ending of its name, with the number of names that found no place.

@@ -32,6 +32,9 @@ impl RasterCanvas {
     }
 
     /// The image as PNG.
+    ///
+    /// # Errors
+    /// An image of no size, which the encoder refuses.
     pub fn encode(&self) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.size.0, self.size.1);
@@ -49,8 +52,8 @@ impl RasterCanvas {
     fn blend(&mut self, x: i32, y: i32, (r, g, b): (u8, u8, u8), alpha: f64) {
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         let Some(image) = self.image.as_mut().filter(|_| x < self.size.0 && y < self.size.1) else { return };
-        let place = y as usize * self.size.0 as usize + x as usize;
-        let Some(pixel) = image.pixels_mut().get_mut(place) else { return };
+        let position = y as usize * self.size.0 as usize + x as usize;
+        let Some(pixel) = image.pixels_mut().get_mut(position) else { return };
         let mix = |old: u8, new: u8| (f64::from(old) * (1.0 - alpha) + f64::from(new) * alpha).round() as u8;
         let mixed = [mix(pixel.red(), r), mix(pixel.green(), g), mix(pixel.blue(), b)];
         if let Some(mixed) = PremultipliedColorU8::from_rgba(mixed[0], mixed[1], mixed[2], 255) {

@@ -549,12 +549,12 @@ fn error_of(text: &str) -> (Diagnostic, String) {
     session.run();
     let sources = &session.interpreter.sources;
     for report in &session.reports {
-        let place = report.span.map(|span| sources.place(span)).unwrap_or_default();
-        assert!(place.starts_with("case.dat:"), "{place}: {report:?}");
+        let position = report.span.map(|span| sources.location(span)).unwrap_or_default();
+        assert!(position.starts_with("case.dat:"), "{position}: {report:?}");
     }
     let errors = session.reports.iter().filter(|r| r.severity == windlass_base::diagnostic::Severity::Error);
     let error = errors.clone().next().unwrap_or_else(|| panic!("no error: {:#?}", session.reports));
-    (error.clone(), error.span.map(|span| sources.place(span)).unwrap())
+    (error.clone(), error.span.map(|span| sources.location(span)).unwrap())
 }
 
 #[test]
@@ -591,10 +591,10 @@ fn record_error_points_at_its_source_card() {
         let text = file(name);
         assert!(text.contains(from), "{from}");
         let text = text.replacen(from, to, 1);
-        let (error, place) = error_of(&text);
+        let (error, position) = error_of(&text);
         assert!(error.message.starts_with(said), "{}", error.message);
         assert!(error.help.iter().any(|help| help.starts_with("the card is read as the record `")), "{error:?}");
-        let line: usize = place.split(':').nth(1).unwrap().parse().unwrap();
-        assert!(text.lines().nth(line - 1).unwrap().contains(at.trim_start()), "{place}: {said}");
+        let line: usize = position.split(':').nth(1).unwrap().parse().unwrap();
+        assert!(text.lines().nth(line - 1).unwrap().contains(at.trim_start()), "{position}: {said}");
     }
 }

@@ -19,7 +19,7 @@ fn part(restart: &str, from: &str, to: Option<&str>) -> String {
     format!("{head}{}", &text[start..end])
 }
 
-fn places(session: &Session) -> Vec<u64> {
+fn positions(session: &Session) -> Vec<u64> {
     let run = session.job.tethered.as_ref().unwrap();
     run.structure.iter().flat_map(|structure| structure.rows.iter().map(|value| value.to_bits())).collect()
 }
@@ -46,7 +46,7 @@ fn stages_of_two_files_match_whole_deck_bit_for_bit() {
     let (mut all, _, _folder) = common::session();
     all.open_job("mint.dat", whole());
     all.run();
-    assert_eq!(places(&session), places(&all));
+    assert_eq!(positions(&session), positions(&all));
 }
 
 #[test]

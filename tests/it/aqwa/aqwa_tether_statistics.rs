@@ -12,7 +12,7 @@ use windlass_solve::tethered::{StatisticsSteps, TetherStatistics};
 
 /// A column of a printed page and the same column of ours, in the units of the listing.
 struct Compared {
-    place: String,
+    position: String,
     quantity: String,
     column: String,
     printed: [f64; 10],
@@ -20,11 +20,14 @@ struct Compared {
 }
 
 /// The page of a quantity of a node, or of an end of an element: three pages a node, then one an end.
-fn page<'a>(pages: &'a [Table], place: &str, number: usize, quantity: &str) -> &'a Table {
+fn page<'a>(pages: &'a [Table], position: &str, number: usize, quantity: &str) -> &'a Table {
     let motion = ["POSITION", "VELOCITY", "ACCELERATION"].iter().position(|motion| *motion == quantity);
-    let index = if place == "node" { 3 * (number - 1) + motion.unwrap() } else { 3 * 14 + number };
-    let said =
-        if place == "node" { format!("Node {number} - {quantity}") } else { format!("Element {} - ", number / 2 + 1) };
+    let index = if position == "node" { 3 * (number - 1) + motion.unwrap() } else { 3 * 14 + number };
+    let said = if position == "node" {
+        format!("Node {number} - {quantity}")
+    } else {
+        format!("Element {} - ", number / 2 + 1)
+    };
     assert!(pages[index].title.contains(&said), "{} for {said}", pages[index].title);
     &pages[index]
 }
@@ -68,7 +71,7 @@ fn compare_pages() -> Vec<Compared> {
         };
         let numbers: Vec<f64> = found.numbers().into_iter().map(unit).collect();
         list.push(Compared {
-            place: format!("{} {number}", &row[0]),
+            position: format!("{} {number}", &row[0]),
             quantity,
             column,
             printed: std::array::from_fn(|i| row[4 + i].parse().unwrap()),
@@ -115,9 +118,9 @@ const MET: [Misfit; 9] = [
 fn pages_match_every_printed_number() {
     let list = compare_pages();
     assert_eq!(list.len(), 204);
-    for Compared { place, quantity, column, printed, found } in &list {
+    for Compared { position, quantity, column, printed, found } in &list {
         let met = MET.iter().find(|m| m.quantity == quantity && m.columns.contains(&column.as_str())).unwrap();
-        let at = format!("{place} {quantity} {column}: {found:?} for {printed:?}");
+        let at = format!("{position} {quantity} {column}: {found:?} for {printed:?}");
         let scale = printed[1];
         assert!((found[0] - printed[0]).abs() < met.mean * scale, "mean at {at}");
         assert!((found[1] / printed[1] - 1.0).abs() < met.two_rms, "2 x RMS at {at}");
@@ -199,16 +202,16 @@ fn pages_along_tether_end_with_printed_summaries() {
     ];
     for (page, (name, summary, printed, room)) in pages.chunks(2).zip(wanted) {
         assert!(page.iter().all(|page| page.title.ends_with(name)));
-        for ((page, places), index) in page.iter().zip([14, 26]).zip(0..) {
-            assert_eq!(page.rows(), places + 1);
+        for ((page, positions), index) in page.iter().zip([14, 26]).zip(0..) {
+            assert_eq!(page.rows(), positions + 1);
             let column = if index == 0 {
                 page.columns().iter().find(|c| c.group == "POSITION" && c.name == "Z").unwrap()
             } else {
                 page.get("Y (LATERAL) BND MOMENT").unwrap()
             };
-            assert_eq!(page.columns()[0].cells[places], summary.into());
+            assert_eq!(page.columns()[0].cells[positions], summary.into());
             let scale = if index == 0 { 1.0 } else { 1e3 };
-            let found = column.numbers()[places] / scale;
+            let found = column.numbers()[positions] / scale;
             assert!((found - printed[index]).abs() < room[index], "{name} {index}: {found}");
         }
     }

@@ -276,7 +276,7 @@ fn librium_job_of_hull_with_text_database_sinks_by_its_stiffness() {
     let (session, _) = run("hull.dat", &hemisphere("LIBR", &BUT_HEAVE, STILL));
     let body = session.job.model.bodies.values().next().unwrap();
     // 3152.8 kN/m of the file against 1 MN down the line: dz = -1E6 v / sqrt(535^2 + v^2) / 3.1528E6, v = 90 + dz
-    assert!((body.place.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.place);
+    assert!((body.position.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.position);
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn fer_job_has_heave_of_coefficients_of_its_file() {
     let (from, to) = (start.find("    15    STRT").unwrap(), start.find("    16    ").unwrap());
     let (session, _) = run("hull.dat", &format!("{}    15    NONE\n{}", &start[..from], &start[to..]));
     let body = session.job.model.bodies.values().next().unwrap();
-    assert!((body.place.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.place);
+    assert!((body.position.shift[2] + 0.052_587_879).abs() < 1e-6, "{:?}", body.position);
     // a sea gives statistics
     let sea = "    13    SPEC\n END13PSMZ                 0.3       2.0       3.0       6.0\n";
     let made = records(&hemisphere("FER ", &BUT_HEAVE, sea)).unwrap().job.join("\n");

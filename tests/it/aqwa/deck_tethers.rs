@@ -193,7 +193,7 @@ struct Bowed {
     push: f64,
 }
 
-fn bow(pull: f64, [first, place, whole]: [f64; 3], support: BowSupport) -> Bowed {
+fn bow(pull: f64, [first, position, whole]: [f64; 3], support: BowSupport) -> Bowed {
     let inertia = PI / 64.0 * (OUTER.powi(4) - bore().powi(4));
     let ei = MODULUS * inertia;
     let k = (pull / ei).sqrt();
@@ -254,7 +254,7 @@ fn bow(pull: f64, [first, place, whole]: [f64; 3], support: BowSupport) -> Bowed
     let value = |span: usize, at: &SpanRows, derivative: usize| {
         (0..4).map(|i| at.0[(derivative, i)] * found[4 * span + i]).sum::<f64>() + at.1[derivative]
     };
-    let (span, behind) = if place < first { (0, place) } else { (1, place - first) };
+    let (span, behind) = if position < first { (0, position) } else { (1, position - first) };
     Bowed {
         deflection: value(span, &rows(behind), 0),
         top: value(1, &end, 1),

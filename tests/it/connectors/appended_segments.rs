@@ -35,8 +35,8 @@ fn class_of_10_000_records_is_built_once() {
     let class = class(&session);
     assert_eq!(Arc::as_ptr(&class.object).cast::<u8>(), object, "built anew");
     assert_eq!(class.records.len(), 10_000);
-    let place = Placement { other: Some([1000.0, 0.0, 0.0]), ..Placement::default() };
-    let LineLoads { fairlead, .. } = class.line(&place, &session.job.model.surroundings()).unwrap().loads().unwrap();
+    let position = Placement { other: Some([1000.0, 0.0, 0.0]), ..Placement::default() };
+    let LineLoads { fairlead, .. } = class.line(&position, &session.job.model.surroundings()).unwrap().loads().unwrap();
     for (got, want) in fairlead.into_iter().zip([250e3, 0.0, -250e3 * 1f64.sinh()]) {
         assert!((got - want).abs() <= 0.01, "{fairlead:?}");
     }

@@ -12,10 +12,10 @@ const PLANE: &str = "&BATHYMETRY P -DEPTHS\nX -2000 0 2000\nY -2000 300 300 300\
 
 /// Bottom at z = -200 - 5e-5 (x - 250)^2, every 100 m.
 fn dome() -> String {
-    let places: Vec<f64> = (-10..=20).map(|i| 100.0 * f64::from(i)).collect();
+    let positions: Vec<f64> = (-10..=20).map(|i| 100.0 * f64::from(i)).collect();
     let joined = |values: Vec<String>| values.join(" ");
-    let x = joined(places.iter().map(|x| x.to_string()).collect());
-    let z = joined(places.iter().map(|x| (200.0 + 5e-5 * (x - 250.0).powi(2)).to_string()).collect());
+    let x = joined(positions.iter().map(|x| x.to_string()).collect());
+    let z = joined(positions.iter().map(|x| (200.0 + 5e-5 * (x - 250.0).powi(2)).to_string()).collect());
     format!("&BATHYMETRY D -DEPTHS\nX {x}\nY -100 {z}\nY 0 {z}\nY 100 {z}\nEND\n&ENV -DEPTH 200 -BATHYMETRY D\n")
 }
 
@@ -81,8 +81,8 @@ fn line_on_curved_bathymetry_follows_its_curvature() {
 
 #[test]
 fn table_option_on_bathymetry_interpolates_along_azimuth() {
-    let place = [900.0 * 30f64.to_radians().cos(), 450.0];
-    let (force, _) = load(&moored_model(PLANE, place, &format!("{ELASTIC} -TABLE")));
+    let position = [900.0 * 30f64.to_radians().cos(), 450.0];
+    let (force, _) = load(&moored_model(PLANE, position, &format!("{ELASTIC} -TABLE")));
     // thirty rows: interpolation errs by a few per mille
     close(force.fixed_rows::<2>(0).norm(), 239215.813830, 5e-3 * 239215.0);
 }

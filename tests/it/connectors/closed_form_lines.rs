@@ -330,8 +330,8 @@ fn only_line_classes_declare_line_capability() {
         session.open("example", format!("&ENV -DEPTH 5000\n{}", kind.spec.example));
         session.run();
         let class = session.job.model.classes.values().next().unwrap();
-        let place = Placement { other: Some([9.0, 0.0, -9.0]), ..Placement::default() };
-        let line = class.line(&place, &session.job.model.surroundings());
+        let position = Placement { other: Some([9.0, 0.0, -9.0]), ..Placement::default() };
+        let line = class.line(&position, &session.job.model.surroundings());
         let none = line
             .is_err_and(|e| ["is no mooring line", "is a dynamic line"].iter().any(|why| e.to_string().contains(why)));
         assert_eq!(class.object.as_line().is_some(), !none, "{}", kind.spec.name);

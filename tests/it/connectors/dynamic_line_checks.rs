@@ -29,7 +29,7 @@ fn deep(top: f64) -> Run {
 /// Places of the nodes that are there all the time; a winch would make more.
 fn there(run: &Run) -> Vec<usize> {
     let columns = run.history.layout.links[0].along.as_ref().unwrap();
-    let kept = |place: &usize| run.history.rows().all(|row| columns.node(*place, row).is_some());
+    let kept = |position: &usize| run.history.rows().all(|row| columns.node(*position, row).is_some());
     (0..columns.numbers.len()).filter(kept).collect()
 }
 
@@ -42,14 +42,14 @@ fn wave_does_not_load_riser_far_below() {
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
     let there = there(&made);
     assert_eq!(there.len(), 21);
-    for place in there {
-        let rows = || made.history.rows().map(|row| columns.node(place, row).unwrap());
+    for position in there {
+        let rows = || made.history.rows().map(|row| columns.node(position, row).unwrap());
         let swing = |of: &dyn Fn(&windlass_solve::time::NodeRow) -> f64| {
             let all: Vec<f64> = rows().map(|n| of(&n)).collect();
             all.iter().fold(f64::MIN, |m, v| m.max(*v)) - all.iter().fold(f64::MAX, |m, v| m.min(*v))
         };
-        assert!(swing(&|n| n.effective) < 1.0, "{place}: {}", swing(&|n| n.effective));
-        assert!(swing(&|n| n.bent.unwrap().wall) < 1.0, "{place}: {}", swing(&|n| n.bent.unwrap().wall));
+        assert!(swing(&|n| n.effective) < 1.0, "{position}: {}", swing(&|n| n.effective));
+        assert!(swing(&|n| n.bent.unwrap().wall) < 1.0, "{position}: {}", swing(&|n| n.bent.unwrap().wall));
     }
     let table = check(&line, &Code::Lrfd(LrfdFactors::default(), 0.0), &all).unwrap();
     for (net, arc) in column(&table, "Net Pressure").iter().zip(column(&table, "Arc")) {
@@ -64,16 +64,16 @@ fn riser_pressure_below_wave_matches_wave_at_its_depth() {
     let made = deep(-20.0);
     let columns = made.history.layout.links[0].along.as_ref().unwrap();
     let number = (std::f64::consts::TAU / 8.0).powi(2) / 9.80665;
-    for place in there(&made) {
+    for position in there(&made) {
         for row in made.history.rows() {
-            let node = columns.node(place, row).unwrap();
+            let node = columns.node(position, row).unwrap();
             let [x, _, z] = node.position;
             let angle = number * x - std::f64::consts::TAU / 8.0 * row[0];
             // rho g (-z + a exp(k z) cos(k x - w t)), Airy in deep water: 1000 m of water are ten wavelengths
             let want = 1025.0 * 9.80665 * (5.0 * (number * z).exp() * angle.cos() - z);
             let found = node.bent.unwrap().pressures[0];
             // wave numbers are solved to 1e-12; a line leaves out the wave where less than a millionth of its 5 m is left
-            assert!((found - want).abs() < 1e-9 * want + 1e-6 * 5.0 * 1025.0 * 9.80665, "{place}: {found} {want}");
+            assert!((found - want).abs() < 1e-9 * want + 1e-6 * 5.0 * 1025.0 * 9.80665, "{position}: {found} {want}");
         }
     }
 }

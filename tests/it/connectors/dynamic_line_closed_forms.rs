@@ -53,12 +53,12 @@ fn moored_records(class: &str, reach: f64) -> String {
 
 /// A line between two bodies, in deep water.
 fn line_between(class: &str, from: [f64; 3], to: [f64; 3]) -> String {
-    let place = |p: [f64; 3]| format!("{} {} {}", p[0], p[1], p[2]);
+    let position = |p: [f64; 3]| format!("{} {} {}", p[0], p[1], p[2]);
     format!(
         "&ENV -DEPTH 1000\nMEDIT\n&DESCRIBE BODY A -IGNORE X Y Z RX RY RZ\n*A {}\n&DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n\
          *B {}\n~L {class}\nCONNECTOR L ~L *A *B\nEND\n",
-        place(from),
-        place(to)
+        position(from),
+        position(to)
     )
 }
 

@@ -187,7 +187,7 @@ fn line_between_two_bodies_holds_them_at_catenary_span() {
          &INSTATE -LOCATE A 0 0 100\n&INSTATE -LOCATE B 390 0 100\n&EQUI\n"
     );
     let session = run_records(&records);
-    let [a, b] = [0, 1].map(|i| session.job.model.bodies[i].place.shift[0]);
+    let [a, b] = [0, 1].map(|i| session.job.model.bodies[i].position.shift[0]);
     let h = 1e5 * (a + 5.0);
     // the springs agree to what EQUI leaves
     assert!((1e5 * (400.0 - b) / h - 1.0).abs() < 1e-3, "{a} {b}");

@@ -18,9 +18,9 @@ fn records(path: &str, axial: &str, restart: &str) -> String {
 /// A file of places x by time, both in seconds and metres.
 fn path(folder: &TempDir, rows: impl Iterator<Item = (f64, f64)>) -> String {
     let lines: String = rows.map(|(t, x)| format!("{t},{x},0,0,0,0,0\n")).collect();
-    let place = folder.path().join("path.csv");
-    fs::write(&place, format!("time,x,y,z,roll,pitch,yaw\n{lines}")).unwrap();
-    place.to_str().unwrap().to_string()
+    let position = folder.path().join("path.csv");
+    fs::write(&position, format!("time,x,y,z,roll,pitch,yaw\n{lines}")).unwrap();
+    position.to_str().unwrap().to_string()
 }
 
 /// A session of records, and what of an earlier one is on disk in its place.

@@ -53,9 +53,10 @@ fn junction(turned: bool) -> Model {
         "ROD 300 10 -LEN 92.5 -REFINE 6 -FYIELD 450 -C_SN DNV_D_FREE",
         "ROD 300 40 -LEN 92.5 -REFINE 6 -FYIELD 350 -C_SN DNV_D_FREE",
     );
-    let places = ["0 0 -5", "150 0 -100"];
-    let (classes, places) = if turned { ([thick, thin], [places[1], places[0]]) } else { ([thin, thick], places) };
-    model(&line_between("&ENV -DEPTH 300 -SEA REGULAR 180 4 9", &classes, places))
+    let positions = ["0 0 -5", "150 0 -100"];
+    let (classes, positions) =
+        if turned { ([thick, thin], [positions[1], positions[0]]) } else { ([thin, thick], positions) };
+    model(&line_between("&ENV -DEPTH 300 -SEA REGULAR 180 4 9", &classes, positions))
 }
 
 #[test]

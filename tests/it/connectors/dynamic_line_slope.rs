@@ -92,8 +92,8 @@ fn friction_holds_grounded_line_in_current_from_any_side() {
 
 /// The environment of a bottom over a grid whose depth goes by X alone.
 fn grid(depth: impl Fn(f64) -> f64) -> String {
-    let places = || (-8..=32).map(|i| 25.0 * f64::from(i));
-    let row = |of: &dyn Fn(f64) -> f64| places().map(|x| format!(" {:.6}", of(x))).collect::<String>();
+    let positions = || (-8..=32).map(|i| 25.0 * f64::from(i));
+    let row = |of: &dyn Fn(f64) -> f64| positions().map(|x| format!(" {:.6}", of(x))).collect::<String>();
     let (x, depths) = (row(&|x| x), row(&depth));
     format!("&BATHYMETRY B -DEPTHS\nX{x}\nY -1000{depths}\nY 1000{depths}\nEND\n&ENV -BATHYMETRY B -TIME 0.2 0.1")
 }

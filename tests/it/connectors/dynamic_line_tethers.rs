@@ -348,11 +348,11 @@ fn towed_periods(cut: usize, plane: Option<bool>) -> Vec<(f64, [f64; 3])> {
     let (fluid, gravity) = if plane.is_some() { (UniformFluid::vacuum(), 0.0) } else { (water, GRAVITY) };
     let world = LineEnvironment::new(&fluid, gravity);
     // tails at twice their length; 10 N do not stretch the pipe
-    let place = |arc: f64| arc.min(tail / 2.0) + arc + (arc - (rod.length() - tail / 2.0)).max(0.0);
-    let places: Vec<Vector3<f64>> = rod.arc().iter().map(|s| Vector3::new(place(*s), 0.0, -0.5)).collect();
-    let ends = [places[0], places[places.len() - 1]].map(RodEnd::pin);
-    let mut state = RodState::along_points(&rod, &places).unwrap();
-    state.position = places.iter().map(|place| place - state.origin).collect();
+    let position = |arc: f64| arc.min(tail / 2.0) + arc + (arc - (rod.length() - tail / 2.0)).max(0.0);
+    let positions: Vec<Vector3<f64>> = rod.arc().iter().map(|s| Vector3::new(position(*s), 0.0, -0.5)).collect();
+    let ends = [positions[0], positions[positions.len() - 1]].map(RodEnd::pin);
+    let mut state = RodState::along_points(&rod, &positions).unwrap();
+    state.position = positions.iter().map(|position| position - state.origin).collect();
     let mut solver = RodSolver::new(&rod, RodSettings::default());
     if plane.is_none() {
         solver.statics(&rod, &mut state, &world, ends).unwrap();

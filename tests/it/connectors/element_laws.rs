@@ -219,8 +219,8 @@ struct ElementBench {
 }
 
 fn oblique(line: bool) -> Pose {
-    let place = if line { [0.0, 0.0, -5.0, 0.0, 0.0, 0.0] } else { [4.0, -3.0, 2.0, 0.7, -0.4, 1.1] };
-    Pose::from_place(&Place::new(place))
+    let position = if line { [0.0, 0.0, -5.0, 0.0, 0.0, 0.0] } else { [4.0, -3.0, 2.0, 0.7, -0.4, 1.1] };
+    Pose::from_place(&Place::new(position))
 }
 
 impl ElementBench {

@@ -55,8 +55,8 @@ fn assert_near(got: f64, want: f64, tolerance: f64) {
     assert!((got - want).abs() <= tolerance, "{got} {want}");
 }
 
-fn place(model: &Model, body: &str) -> [f64; 6] {
-    model.bodies.get(body).unwrap().place.values()
+fn position(model: &Model, body: &str) -> [f64; 6] {
+    model.bodies.get(body).unwrap().position.values()
 }
 
 /// W of slings of these lengths that are all l long.
@@ -77,10 +77,10 @@ fn four_equal_slings_carry_quarter_load_each_with_its_stretch() {
     // the fall of 200 mm has four times the AE
     let hook = 60.0 - 10.0 * (1.0 + w / (4.0 * EA));
     let want = [3.0, 5.0, hook - (l * l - 100.0).sqrt() - 1.0, 0.0, 0.0];
-    for (got, want) in place(&model, "DECK").iter().zip(want) {
+    for (got, want) in position(&model, "DECK").iter().zip(want) {
         assert_near(*got, want, 1e-8);
     }
-    assert_near(place(&model, "HOOK")[2], hook, 1e-8);
+    assert_near(position(&model, "HOOK")[2], hook, 1e-8);
 }
 
 #[test]
@@ -127,10 +127,10 @@ fn initial_places_hook_below_boom_and_keeps_attitude() {
     let (session, _) = run(&records(1e6, [20.0; 4], "-INITIAL"));
     let model = &session.job.model;
     let want = [3.0, 5.0, 50.0 - 300.0_f64.sqrt() - 1.0, 0.0, 0.0, 0.0];
-    for (got, want) in place(model, "DECK").iter().zip(want) {
+    for (got, want) in position(model, "DECK").iter().zip(want) {
         assert_near(*got, want, 1e-12);
     }
-    for (got, want) in place(model, "HOOK").iter().zip([3.0, 5.0, 50.0]) {
+    for (got, want) in position(model, "HOOK").iter().zip([3.0, 5.0, 50.0]) {
         assert_near(*got, want, 1e-12);
     }
 }
@@ -142,7 +142,7 @@ fn vertical_rotates_body_to_hang_with_centre_below_hook() {
     let lengths = [far(8.0, 6.0), far(-8.0, 6.0), far(-8.0, -6.0), far(8.0, -6.0)];
     let (session, _) = run(&records(1e6, lengths, "-INITIAL -VERTICAL"));
     let model = &session.job.model;
-    let [x, y, z, roll, pitch, _] = place(model, "DECK");
+    let [x, y, z, roll, pitch, _] = position(model, "DECK");
     assert_near(roll, 0.0, 1e-9);
     // (2, 0, 21) from the centre to the hook is turned upright
     assert_near(pitch, -(2.0_f64 / 21.0).atan(), 1e-9);
@@ -153,7 +153,7 @@ fn vertical_rotates_body_to_hang_with_centre_below_hook() {
     // and there it rests, but for the stretch
     let mut rest = model.clone();
     find_equilibrium_with_rebuilds(&mut rest, &EquilibriumOptions::default()).unwrap();
-    assert_near(place(&rest, "DECK")[4], pitch, 1e-3);
+    assert_near(position(&rest, "DECK")[4], pitch, 1e-3);
 }
 
 #[test]
@@ -163,10 +163,10 @@ fn later_set_removes_sag_from_its_lines() {
     let (session, text) = run(&format!("{}\n{second}", records(1e6, [20.0; 4], "-INITIAL")));
     let model = &session.job.model;
     let before = run(&records(1e6, [20.0; 4], "-INITIAL")).0;
-    assert_eq!(place(model, "DECK"), place(&before.job.model, "DECK"));
-    let deck = place(model, "DECK")[2];
+    assert_eq!(position(model, "DECK"), position(&before.job.model, "DECK"));
+    let deck = position(model, "DECK")[2];
     let hook = deck + 1.0 + (900.0_f64 - 16.0).sqrt();
-    assert_near(place(model, "SECOND")[2], hook, 1e-9);
+    assert_near(position(model, "SECOND")[2], hook, 1e-9);
     assert_near(model.connectors.get("FALL2").unwrap().first_length.unwrap(), 70.0 - hook, 1e-9);
     assert_eq!(model.connectors.get("A").unwrap().first_length, None);
     assert!(session.reports.iter().any(|r| r.message.starts_with("connector FALL2: ")), "{text}");
@@ -190,7 +190,7 @@ fn orient_aligns_body_system_with_its_nodes_without_moving_it() {
     for (new, was) in
         [([0.0; 3], [0.0, 0.0, 1.0]), ([1.0, 0.0, 0.0], [0.0, 1.0, 1.0]), ([0.0, 1.0, 0.0], [1.0, 0.0, 1.0])]
     {
-        body.place.apply(new).iter().zip(old.place.apply(was)).for_each(|(a, b)| assert_near(*a, b, 1e-12));
+        body.position.apply(new).iter().zip(old.position.apply(was)).for_each(|(a, b)| assert_near(*a, b, 1e-12));
     }
 }
 
@@ -201,9 +201,9 @@ fn deactivated_sets_leave_their_hooks_in_place() {
     let (session, _) = run(&format!("{}\n{second}", records(1e6, [20.0; 4], "-INITIAL")));
     let mut model = session.job.model.clone();
     assert!(!model.connectors.get("FALL").unwrap().active && model.connectors.get("FALL2").unwrap().active);
-    let before = place(&model, "HOOK");
+    let before = position(&model, "HOOK");
     let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
-    assert_eq!(place(&model, "HOOK"), before);
+    assert_eq!(position(&model, "HOOK"), before);
     assert!(found.found.loose.iter().all(|(body, _)| body == "DECK"), "{:?}", found.found.loose);
     assert_near(tension(&model, "FALL2") / 1e6, 1.0, 1e-8);
 }

@@ -15,20 +15,20 @@ fn session(records: &str) -> Session {
     session
 }
 
-fn place(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
+fn position(fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> Placement {
     Placement { fairlead, other: Some(other), to_ground, anchored: to_ground, ..Placement::default() }
 }
 
-fn with_line<T>(records: &str, place: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
+fn with_line<T>(records: &str, position: Placement, ask: impl Fn(&dyn LineModel) -> T) -> T {
     let session = session(records);
     let model = &session.job.model;
     let class = model.classes.values().next_back().unwrap_or_else(|| panic!("{records}: {:?}", session.reports));
-    let line = class.line(&place, &model.surroundings()).unwrap_or_else(|e| panic!("{records}: {e}"));
+    let line = class.line(&position, &model.surroundings()).unwrap_or_else(|e| panic!("{records}: {e}"));
     ask(line.as_ref())
 }
 
-fn loads(records: &str, place: Placement) -> LineLoads {
-    with_line(records, place, |line| line.loads().unwrap_or_else(|e| panic!("{records}: {e}")))
+fn loads(records: &str, position: Placement) -> LineLoads {
+    with_line(records, position, |line| line.loads().unwrap_or_else(|e| panic!("{records}: {e}")))
 }
 
 fn assert_near(got: f64, want: f64, share: f64) {
@@ -66,7 +66,7 @@ fn exact_b_cats_match_validation_forces() {
         );
         // heading 30 degrees from +X
         let (c, s) = (30f64.to_radians().cos(), 30f64.to_radians().sin());
-        let got = loads(&records, place([10.0, 20.0, -500.0], [10.0 + x * c, 20.0 + x * s, -depth], true));
+        let got = loads(&records, position([10.0, 20.0, -500.0], [10.0 + x * c, 20.0 + x * s, -depth], true));
         let tension = fh.hypot(fv);
         for (a, b) in got.fairlead.iter().zip([fh * c, fh * s, -fv]) {
             assert!((a - b).abs() <= 2e-8 * tension, "{records}: {got:?}");
@@ -88,7 +88,7 @@ fn exact_h_cats_match_validation_forces_with_weight_in_air() {
         }
         // -BUOY changes nothing: a hanging catenary does not know the water
         let records = format!("~L H_CAT 100 EXACT -LEN {l:e} -WTPL {w:e} -EMOD {:e} -BUOY 100", emodulus(ea));
-        let got = loads(&records, place([0.0, 0.0, z], [0.0, x, 0.0], false));
+        let got = loads(&records, position([0.0, 0.0, z], [0.0, x, 0.0], false));
         let tension = fh.hypot(fv).max(ah.hypot(av));
         for (a, b) in got.fairlead.iter().chain(&got.other).zip([0.0, fh, -fv, 0.0, -ah, av]) {
             assert!((a - b).abs() <= 2e-8 * tension, "{records}: {got:?} {fh} {fv}");
@@ -111,13 +111,13 @@ fn stiffness_matches_force_finite_difference_in_every_line_class() {
         ("~L CATENARY 170 0.02 -LEN 300 -EA 7E8 -K 1E8 2E9 1E10", [0.0, 0.0, 40.0], [170.0, 200.0, 10.0], false),
     ];
     for (records, from, to, ground) in cases {
-        let middle = loads(records, place(from, to, ground));
+        let middle = loads(records, position(from, to, ground));
         let scale = middle.stiffness.iter().flatten().fold(0.0, |m: f64, k| m.max(k.abs()));
         for axis in 0..3 {
             let moved = |by: f64| {
                 let mut at = from;
                 at[axis] += by;
-                loads(records, place(at, to, ground)).fairlead
+                loads(records, position(at, to, ground)).fairlead
             };
             let (plus, minus) = (moved(1e-4), moved(-1e-4));
             for row in 0..3 {
@@ -145,7 +145,7 @@ fn weight_in_water_includes_every_contributing_option() {
     ];
     for (options, w) in cases {
         let records = format!("~L B_CAT 100 EXACT -LEN 500 -EMOD 1E9 -DEP 300 {options}");
-        let got = loads(&records, place([0.0; 3], [20.0, 0.0, -300.0], true));
+        let got = loads(&records, position([0.0; 3], [20.0, 0.0, -300.0], true));
         assert_near(-got.fairlead[2], w * 300.0, 1e-6);
         assert_near(got.fairlead[0], 0.0, 1e-9);
     }
@@ -155,7 +155,7 @@ fn weight_in_water_includes_every_contributing_option() {
 fn break_comes_from_given_tension_ultimate_stress_or_yield_stress() {
     let area = std::f64::consts::FRAC_PI_4 * 100.0 * 100.0;
     let base = "~L SL_ELEM 100 -LEN 100 -EMOD 200000";
-    let end = place([0.0; 3], [100.1, 0.0, 0.0], false);
+    let end = position([0.0; 3], [100.1, 0.0, 0.0], false);
     let tension = 2e5 * area * 0.001;
     for (options, limit) in [
         ("-B_TENSION 2E6", 2e6),
@@ -174,7 +174,7 @@ fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     for (flag, length) in [("", 40.0), ("", 60.0), ("TENSION", 40.0), ("TENSION", 60.0)] {
         let records = format!("~L SL_ELEM 100 {flag} -LEN {length} -EMOD 200000");
-        let got = loads(&records, place([0.0; 3], [30.0, 0.0, -40.0], false));
+        let got = loads(&records, position([0.0; 3], [30.0, 0.0, -40.0], false));
         let mut want = 2e11 * area * (50.0 - length) / length;
         if flag == "TENSION" {
             want = want.max(0.0);
@@ -187,8 +187,8 @@ fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
     // only the distance counts: the same line turned
     let records = "~L SL_ELEM 100 -LEN 40 -EMOD 200000";
     let (a, b) = (
-        loads(records, place([0.0; 3], [30.0, 0.0, -40.0], false)),
-        loads(records, place([0.0; 3], [0.0, 50.0, 0.0], false)),
+        loads(records, position([0.0; 3], [30.0, 0.0, -40.0], false)),
+        loads(records, position([0.0; 3], [0.0, 50.0, 0.0], false)),
     );
     assert_near(a.tension, b.tension, 1e-12);
 }
@@ -197,7 +197,7 @@ fn sl_elem_acts_both_ways_along_chord_unless_tension_only() {
 fn springs_of_send_and_x_py_are_in_series_with_line() {
     let area = std::f64::consts::FRAC_PI_4 * 0.01;
     let k = 2e11 * area / 50.0;
-    let end = place([0.0; 3], [52.0, 0.0, 0.0], false);
+    let end = position([0.0; 3], [52.0, 0.0, 0.0], false);
     let one = |options: &str| loads(&format!("~L SL_ELEM 100 -LEN 50 -EMOD 200000 {options}"), end.clone()).tension;
     assert_near(one(""), 2.0 * k, 1e-12);
     assert_near(one("-SEND 1E6"), 2.0 / (1.0 / k + 1e-6), 1e-10);
@@ -208,14 +208,14 @@ fn springs_of_send_and_x_py_are_in_series_with_line() {
     assert_near(t / k + 1.0 + (t - 9e5) * 1e-6, 2.0, 1e-10);
     // and in compression as in tension
     let pushed =
-        loads("~L SL_ELEM 100 -LEN 50 -EMOD 200000 -X_PY 4E5 0.5 9E5 1.0", place([0.0; 3], [48.0, 0.0, 0.0], false));
+        loads("~L SL_ELEM 100 -LEN 50 -EMOD 200000 -X_PY 4E5 0.5 9E5 1.0", position([0.0; 3], [48.0, 0.0, 0.0], false));
     assert_near(pushed.tension, -t, 1e-9);
 }
 
 #[test]
 fn weightless_h_cat_is_tension_only_sl_elem() {
     for x in [30.0, 49.0, 51.0, 52.0] {
-        let end = place([0.0; 3], [x, 5.0, -3.0], false);
+        let end = position([0.0; 3], [x, 5.0, -3.0], false);
         let (a, b) = (loads("~L H_CAT 100 -LEN 50", end.clone()), loads("~L SL_ELEM 100 TENSION -LEN 50", end.clone()));
         assert_eq!((a.fairlead, a.stiffness), (b.fairlead, b.stiffness));
     }
@@ -224,7 +224,7 @@ fn weightless_h_cat_is_tension_only_sl_elem() {
 const TABLED: &str = "~L B_CAT 100 -LEN 1500 -BUOY 0 -WTPL 900 -EMOD 50000 -DEP 300 -TABLE";
 
 fn placement_at(x: f64) -> Placement {
-    place([0.0, 0.0, -10.0], [x, 0.0, -300.0], true)
+    position([0.0, 0.0, -10.0], [x, 0.0, -300.0], true)
 }
 
 #[test]
@@ -363,7 +363,7 @@ fn first_length_for_force_gives_that_force() {
 fn aqwa_section_weight_is_mass_less_displaced_water() {
     for (area, w) in [(0.0, 170.0 * 9.80665), (0.02, (170.0 - 1025.0 * 0.02) * 9.80665)] {
         let records = format!("~L CATENARY 170 {area} -LEN 500 -EA 1E14 -DEP 300");
-        let got = loads(&records, place([0.0; 3], [10.0, 0.0, -300.0], true));
+        let got = loads(&records, position([0.0; 3], [10.0, 0.0, -300.0], true));
         assert_near(-got.fairlead[2], w * 300.0, 1e-6);
     }
 }
@@ -373,7 +373,7 @@ fn aqwa_section_stretch_follows_polynomial_up_to_largest_tension() {
     let one = |options: &str, strain: f64| {
         // as heavy as the water it displaces: straight
         let records = format!("~L CATENARY 170 {:e} -LEN 100 {options}", 170.0 / 1025.0);
-        loads(&records, place([0.0; 3], [100.0 * (1.0 + strain), 0.0, 0.0], false)).tension
+        loads(&records, position([0.0; 3], [100.0 * (1.0 + strain), 0.0, 0.0], false)).tension
     };
     assert_near(one("", 0.005), 5.0e6 * 170.0 * 0.005, 1e-9);
     assert_near(one("-EA 1E7 -TMAX 1E6", 0.02), 2e5, 1e-6);
@@ -397,7 +397,7 @@ fn aqwa_buoys_and_clumps_have_mass_and_ignore_surface() {
     let line =
         |joint: &str| format!("~L CATENARY 100 -LEN 200 -EA 1E9 -DEP 300 {joint}\n~L CATENARY 100 -LEN 400 -EA 1E9");
     let notes =
-        |joint: &str| with_line(&line(joint), place([0.0; 3], [420.0, 0.0, -300.0], true), |l| l.loads().unwrap());
+        |joint: &str| with_line(&line(joint), position([0.0; 3], [420.0, 0.0, -300.0], true), |l| l.loads().unwrap());
     let bare = notes("");
     let clump = notes("-CLUMP 30000 5000");
     assert!(-clump.fairlead[2] > -bare.fairlead[2] + 1e4);
@@ -412,7 +412,7 @@ fn aqwa_buoys_and_clumps_have_mass_and_ignore_surface() {
 
 #[test]
 fn line_ignoring_seabed_and_surface_reports_crossing_them() {
-    let got = loads("~L H_CAT 100 EXACT -LEN 4000 -WTPL 500", place([0.0, 0.0, 10.0], [100.0, 0.0, 5.0], false));
+    let got = loads("~L H_CAT 100 EXACT -LEN 4000 -WTPL 500", position([0.0, 0.0, 10.0], [100.0, 0.0, 5.0], false));
     for text in ["below the sea bottom", "above the water surface"] {
         assert!(got.notes.iter().any(|n| n.without_values().contains(text)), "{:?}", got.notes);
     }
@@ -436,7 +436,8 @@ fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
     }
     let missing = session("END\nINMODEL\n~L SL_ELEM 100 -LEN 50 -CONVOLUTION NONE");
     let class = &missing.job.model.classes["~L"];
-    let error = class.line(&place([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
+    let error =
+        class.line(&position([0.0; 3], [52.0, 0.0, 0.0], false), &missing.job.model.surroundings()).err().unwrap();
     assert!(error.to_string().contains("no convolution curve is called NONE"), "{error}");
 }
 
@@ -444,7 +445,7 @@ fn viscoelastic_spring_is_in_series_with_its_long_term_stiffness() {
 fn aqwa_line_table_ends_at_largest_expected_tension() {
     for options in ["", "-EA 7E8 -TMAX 5E6", "-EA 7E8 -TMAX 5E6 -K 1E9 1E10"] {
         let records = format!("~L CATENARY 170 0.02 -LEN 900 -DEP 150 {options}");
-        let rows = with_line(&records, place([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);
+        let rows = with_line(&records, position([0.0; 3], [850.0, 0.0, -150.0], true), |l| l.tabulate("A").unwrap().0);
         let limit = if options.is_empty() { 5.0e4 * 170.0 } else { 5e6 };
         assert_near(rows.row(29)[3].number().unwrap(), limit, 1e-6);
         assert!(rows.row(29)[0].number().unwrap() < 900.0 * 1.05, "{:?}", rows.row(29)[0]);

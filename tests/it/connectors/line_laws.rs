@@ -56,9 +56,9 @@ impl SessionBench {
     fn loads(&self, fairlead: [f64; 3], other: [f64; 3], to_ground: bool) -> LineLoads {
         let model = &self.0.job.model;
         let anchored = to_ground;
-        let place = Placement { fairlead, other: Some(other), to_ground, anchored, ..Placement::default() };
+        let position = Placement { fairlead, other: Some(other), to_ground, anchored, ..Placement::default() };
         let class = model.classes.values().next_back().unwrap();
-        class.line(&place, &model.surroundings()).unwrap().loads().unwrap()
+        class.line(&position, &model.surroundings()).unwrap().loads().unwrap()
     }
 }
 

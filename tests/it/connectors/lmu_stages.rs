@@ -40,7 +40,7 @@ fn every_lmu_stage_matches_independent_solution() {
         let close = |got: f64, want: f64, what: &str| {
             assert!((got - want).abs() < 5e-6 + 1e-6 * want.abs(), "{} m, {what}: {got} is not {want}", &row[0]);
         };
-        let [x, y, z, ..] = model.bodies.get("DECK").unwrap().place.values();
+        let [x, y, z, ..] = model.bodies.get("DECK").unwrap().position.values();
         for (got, (i, axis)) in [x, y, z].into_iter().zip([(1, "X"), (2, "Y"), (3, "Z")]) {
             close(got, number(i), axis);
         }
@@ -80,7 +80,7 @@ fn landed_topside_matches_rigid_plate_on_four_springs() {
         assert!((got - want).abs() < 1e-3 * want, "{name}: {got} is not {want}");
     }
     // the tuggers' pull is shared by four sides of K_h: d; c = W / 4 K_v = D_v - LEN + T d
-    let [_, y, z, ..] = model.bodies.get("DECK").unwrap().place.values();
+    let [_, y, z, ..] = model.bodies.get("DECK").unwrap().position.values();
     let d = side / 4.0 / 8000.0;
     assert!((y - d).abs() < 1e-6, "{y}");
     assert!((z + 1.5 + w / 4.0 / 50000.0 - d * 0.8 / 3.0).abs() < 1e-6, "{z}");
@@ -124,7 +124,7 @@ fn pin_on_axis_and_cone_floor_is_held_laterally() {
     session.run();
     assert!(session.reports.is_empty(), "{}", screen.text());
     let model = session.job.model.clone();
-    let [_, _, z, ..] = model.bodies.get("DECK").unwrap().place.values();
+    let [_, _, z, ..] = model.bodies.get("DECK").unwrap().position.values();
     assert!((z + 1.5 + 0.04).abs() < 1e-12, "W / 4 K_v = 40 mm: {z}");
     let system = System::new(&model, &[]).unwrap();
     let mut state = system.state(&model);

@@ -105,7 +105,7 @@ fn riser_on_one_roller_carries_weight_below_tensioner_pull() {
     let run = session.job.run.as_ref().unwrap();
     let along = run.history.layout.links[0].along.as_ref().unwrap();
     let first = run.history.rows().next().unwrap();
-    let nodes: Vec<_> = (0..).map_while(|place| along.node(place, first)).collect();
+    let nodes: Vec<_> = (0..).map_while(|position| along.node(position, first)).collect();
     let (top, bottom) = (nodes.first().unwrap(), nodes.last().unwrap());
     // TUPPER at the top, and 120 m of 1200 N/m less at the bottom
     assert!((top.effective / 3e5 - 1.0).abs() < 1e-4, "{}", top.effective);

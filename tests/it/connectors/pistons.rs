@@ -171,15 +171,15 @@ fn release_faster_than_piston_drops_below_tmin_and_recovers() {
 fn monotone_pull_gives_monotone_tension_at_any_step() {
     for dt in [0.001, 0.013, 0.1, 1.0] {
         let mut rig = PistonRig::spring(MINMAX);
-        let (mut before, mut place) = (0.0, 1.0);
+        let (mut before, mut position) = (0.0, 1.0);
         let steps = (5.0_f64 / dt) as usize;
         for i in 1..=steps {
             let tension = rig.step(0.3 * dt * i as f64, dt);
             assert!(tension >= before - 1e-6, "{dt}: {tension} after {before}");
             // at first it takes up the slack below TMIN, then it only lengthens
             let taken = tension <= 2000.0 + 1e-6;
-            assert!(taken || rig.state[0] >= place - 1e-12, "{dt}: {} after {place}", rig.state[0]);
-            (before, place) = (tension, rig.state[0]);
+            assert!(taken || rig.state[0] >= position - 1e-12, "{dt}: {} after {position}", rig.state[0]);
+            (before, position) = (tension, rig.state[0]);
         }
         assert_near(before, 8000.0);
     }

@@ -30,8 +30,8 @@ fn tension(model: &Model, name: &str) -> f64 {
     element.summary(&at, &vec![0.0; element.states()]).unwrap().tension.unwrap()
 }
 
-fn place(model: &Model) -> [f64; 6] {
-    model.bodies["B"].place.values()
+fn position(model: &Model) -> [f64; 6] {
+    model.bodies["B"].position.values()
 }
 
 /// A weight on a rope from the ground over a pulley 20 m up, 1e6 N.
@@ -50,7 +50,7 @@ fn rope_over_pulley_has_one_tension_and_shares_its_length() {
     for lengths in [[31.0, 19.0], [10.0, 40.0], [49.0, 1.0]] {
         let made = settled(&rope(lengths, ""));
         let hangs = 50.0 * (1.0 + 1e6 / EA) - aside;
-        for (got, want) in place(&made).iter().zip([0.0, 0.0, 20.0 - hangs]) {
+        for (got, want) in position(&made).iter().zip([0.0, 0.0, 20.0 - hangs]) {
             assert!((got - want).abs() < 1e-9 * hangs, "{got} {want}");
         }
         for name in ["S1", "S2"] {
@@ -64,7 +64,7 @@ fn unlike_spans_share_length_by_their_stiffness() {
     // 100 mm on one side and 50 mm on the other, a quarter of its EA: l1 = 31.62 / (1 + T/EA), and the rest of 50 m stretches by 4 T/EA
     let made = settled(&rope([30.0, 20.0], "").replace("~R2 H_CAT 100", "~R2 H_CAT 50"));
     let aside = 1000f64.sqrt() / (1.0 + 1e6 / EA);
-    assert_share(20.0 - place(&made)[2], (50.0 - aside) * (1.0 + 4e6 / EA), 1e-9);
+    assert_share(20.0 - position(&made)[2], (50.0 - aside) * (1.0 + 4e6 / EA), 1e-9);
 }
 
 #[test]
@@ -83,7 +83,7 @@ fn two_part_fall_bears_half_its_load_in_each_part() {
     let made = settled(&records);
     let z = 0.5 * (heights[0] + heights[1] - stretched * cosine);
     let y = 3.0 - (heights[0] - z) * sine / cosine;
-    let [_, got_y, got_z, ..] = place(&made);
+    let [_, got_y, got_z, ..] = position(&made);
     assert!((got_y - y).abs() < 1e-8 && (got_z - z).abs() < 1e-8, "{got_y} {y} {got_z} {z}");
     for name in ["S1", "S2"] {
         assert_share(tension(&made, name), pull, 1e-8);

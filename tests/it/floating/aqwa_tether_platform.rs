@@ -31,7 +31,7 @@ fn platform() -> Model {
 fn platform_at_rest_has_buoyancy_less_weight_in_tethers() {
     let mut model = platform();
     let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
-    let [x, y, z, ..] = model.bodies.get("TLP").unwrap().place.values();
+    let [x, y, z, ..] = model.bodies.get("TLP").unwrap().position.values();
     // the length of the script is rounded to 1e-6 m, the platform with it
     assert!(x == 0.0 && y == 0.0 && (z + 17.4).abs() < 3e-6, "{x} {y} {z}");
     // 2.77742E6 kN, and the weight printed in [AQWA-TETHER 8.2] as 2.6369E6 kN
@@ -103,11 +103,11 @@ fn platform_periods_match_string_spring_and_coupled_pair() {
 #[test]
 fn platform_offset_sets_down_on_tether_circle() {
     let mut model = platform();
-    model.bodies.get_mut("TLP").unwrap().place = Place::new([-46.0, 0.0, -21.4, 0.0, 0.0, 0.0]);
+    model.bodies.get_mut("TLP").unwrap().position = Place::new([-46.0, 0.0, -21.4, 0.0, 0.0, 0.0]);
     let (x, pitch) = (0, 4);
     let options = EquilibriumOptions { ignored: vec![(0, x), (0, pitch)], ..EquilibriumOptions::default() };
     let found = find_equilibrium_with_rebuilds(&mut model, &options).unwrap();
-    let [_, _, z, ..] = model.bodies.get("TLP").unwrap().place.values();
+    let [_, _, z, ..] = model.bodies.get("TLP").unwrap().position.values();
     // tethers of length l at 46 m: vertical balance rho g (V + A (z0 - z)) - W = T sqrt(l2 - 46 2) / l, T = EA (l - L) / L for four,
     // l2 = 46 2 + (264 + z - z0) 2: by bisection
     let (mut low, mut high) = (-8.0, 0.0);

@@ -31,7 +31,7 @@ const BARGE: &str = "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 12\nPGEN HULL\nPLANE 
 /// Hydrostatics of the first body where it is.
 fn state(model: &Model) -> Hydrostatics {
     let body = &model.bodies[0];
-    let (hull, pose) = (Hull::new(model, body).unwrap().unwrap(), Pose::from_place(&body.place));
+    let (hull, pose) = (Hull::new(model, body).unwrap().unwrap(), Pose::from_place(&body.position));
     let mass = Mass::from_parts(model.parts_of(body), model.defaults.gravity);
     Hydrostatics::new(&hull.wet(&pose), &pose, mass.centre, hull.water_weight()).unwrap()
 }
@@ -147,7 +147,7 @@ fn body_weight_and_buoyancy_tangent_matches_finite_differences() {
     let (model, _) = model(&format!("{BARGE}&INSTATE -LOCATE TBRG 30 -20 -9 4 1 25\n"));
     let floating = Floating::at_rest(&model, &model.bodies[0]).unwrap();
     assert_eq!(floating.loads.iter().map(|l| l.category()).collect::<Vec<_>>(), [Category::Weight, Category::Buoyancy]);
-    let pose = Pose::from_place(&model.bodies[0].place);
+    let pose = Pose::from_place(&model.bodies[0].position);
     for load in &floating.loads {
         let at = load.mean_load(&pose).unwrap();
         for n in 0..6 {
@@ -178,7 +178,7 @@ fn linear_stiffness_matches_aqwa_deck_buoyancy() {
     );
     let body = &model.bodies[0];
     let floating = Floating::at_rest(&model, body).unwrap();
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let total: Vector6<f64> = floating.loads.iter().map(|l| l.mean_load(&pose).unwrap().wrench).sum();
     let depth = 2.0 + 0.5 * (1.0 - 0.01f64.cos());
     assert_share(total[2] / NEWTONS_PER_KIP, 70.0 * depth, 1e-9);
@@ -221,7 +221,7 @@ fn conditions_of_several_bodies_keep_position_and_heading() {
          &INSTATE -CONDITION A 9 1 2 -CONDITION 5\n",
     );
     let values = |name: &str| {
-        let [x, y, z, a, b, c] = model.bodies[name].place.values();
+        let [x, y, z, a, b, c] = model.bodies[name].position.values();
         [x / METRES_PER_FOOT, y / METRES_PER_FOOT, z / METRES_PER_FOOT, a.to_degrees(), b.to_degrees(), c.to_degrees()]
             .map(|v| (v * 1e9).round() / 1e9)
     };
@@ -243,7 +243,7 @@ fn positive_roll_lifts_starboard_and_trim_sinks_stern() {
 #[test]
 fn move_and_its_inverse_restore_configuration() {
     let records = "&DESCRIBE BODY A\n&INSTATE -LOCATE A 1 2 3 40 50 60\n&INSTATE -MOVE A 1 2 4 8 16 32\n&INSTATE -MOVE A -1 -2 -4 -8 -16 -32\n";
-    let place = model(records).0.bodies["A"].place;
+    let position = model(records).0.bodies["A"].position;
     let want = [
         METRES_PER_FOOT,
         2.0 * METRES_PER_FOOT,
@@ -252,8 +252,8 @@ fn move_and_its_inverse_restore_configuration() {
         50f64.to_radians(),
         60f64.to_radians(),
     ];
-    for (a, b) in place.values().into_iter().zip(want) {
-        assert!((a - b).abs() < 1e-15 * (1.0 + b), "{place:?}");
+    for (a, b) in position.values().into_iter().zip(want) {
+        assert!((a - b).abs() < 1e-15 * (1.0 + b), "{position:?}");
     }
 }
 

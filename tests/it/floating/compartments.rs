@@ -178,10 +178,10 @@ fn ballast_balances_body_at_its_position() {
         check_near(numbers(&text, name)[2], want, 0.0051);
     }
     // nothing moves it
-    let place = numbers(&text, "B");
-    check_near(place[2], -3.0, 0.0051);
-    check_near(place[3], 0.0, 0.0051);
-    check_near(place[4], 0.0, 0.0051);
+    let position = numbers(&text, "B");
+    check_near(position[2], -3.0, 0.0051);
+    check_near(position[3], 0.0, 0.0051);
+    check_near(position[4], 0.0, 0.0051);
 }
 
 #[test]
@@ -190,8 +190,8 @@ fn ballast_of_a_trimmed_and_heeled_body_leaves_it_at_rest() {
         "{WINGS}&WEIGHT -TOTAL B 6000 45 0 5 9 25 25\n&INSTATE -CONDITION B 3 2 0.4\n&CMP_BAL B @\n&EQUI\n&STATUS CONFIGURATION"
     ));
     assert_eq!(errors, 0, "{text}");
-    let place = numbers(&text, "B");
-    for (got, want) in place[2..5].iter().zip([-3.0, 2.0, 0.4]) {
+    let position = numbers(&text, "B");
+    for (got, want) in position[2..5].iter().zip([-3.0, 2.0, 0.4]) {
         check_near(*got, want, 0.0051);
     }
 }

@@ -28,7 +28,7 @@ const HUNG: &str = "MEDIT\n*A 0 0 0\n&DESCRIBE BODY LOAD\n*HOOK 0 0 2\n~TIE SL_E
                     CONNECTOR T ~TIE *HOOK *A\nEND\n&INSTATE -LOCATE LOAD 3 1 -11 10 5 0";
 
 fn z_of(model: &Model, body: &str) -> [f64; 6] {
-    model.bodies.get(body).unwrap().place.values()
+    model.bodies.get(body).unwrap().position.values()
 }
 
 #[test]

@@ -63,9 +63,9 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
     for start in 0..400 {
         let [x, y, z] = far.map(|f| f * next());
         let [roll, pitch, yaw] = [30.0, 30.0, 90.0].map(|a: f64| (a * next()).to_radians());
-        let place = [home.origin.x + x, home.origin.y + y, home.origin.z + z, roll, pitch, yaw];
+        let position = [home.origin.x + x, home.origin.y + y, home.origin.z + z, roll, pitch, yaw];
         let mut state = system.state(model);
-        state.poses[0] = Pose::from_place(&Place::new(place));
+        state.poses[0] = Pose::from_place(&Place::new(position));
         list.push(match equilibrium(&system, &mut state, &EquilibriumOptions::default()) {
             Ok(found) => {
                 let away = (state.poses[0].origin - home.origin).norm();
@@ -74,12 +74,12 @@ fn steps(model: &Model, far: [f64; 3]) -> Vec<Result<usize, String>> {
                     Ok(found.search.iterations)
                 } else {
                     Err(format!(
-                        "{start} {place:?}: elsewhere, {away:.3e} m, {turned:.3e}, {:.1e} g left",
+                        "{start} {position:?}: elsewhere, {away:.3e} m, {turned:.3e}, {:.1e} g left",
                         found.search.residual
                     ))
                 }
             }
-            Err(error) => Err(format!("{start} {place:?}: {} {}", error.who.unwrap_or_default(), error.error)),
+            Err(error) => Err(format!("{start} {position:?}: {} {}", error.who.unwrap_or_default(), error.error)),
         });
     }
     list

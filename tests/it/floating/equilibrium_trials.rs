@@ -80,7 +80,7 @@ fn trial_without_solution_shortens_step_to_its_fraction() {
     let found = find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default()).unwrap();
     // k d/(1 - d/L) = W: d = W L/(k L + W); Newton's first step from d = 0 is W/k = 100 m, a million times the limit
     let want = -WEIGHT * LIMIT / (STIFFNESS * LIMIT + WEIGHT);
-    let got = model.bodies["B"].place.shift[2];
+    let got = model.bodies["B"].position.shift[2];
     // at the tolerance of a thousandth of the weight d errs by 1e-3 (1 - d/L)^2 k/W of itself
     assert!((got / want - 1.0).abs() < 1e-9, "{got} {want} {:?}", found.found);
 }

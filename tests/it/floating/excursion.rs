@@ -205,7 +205,7 @@ fn find_watched_bodies(made: &Model, force: f64, free: bool, count: usize) -> Ve
     let mut system = System::new(made, &[]).unwrap();
     let start: Vec<Pose> = system.state(made).poses;
     let directions: Vec<f64> = (0..=count).map(|n| TAU * n as f64 / count as f64).collect();
-    let list = watch(&mut system, &start, (0, force, free), &directions).unwrap().places;
+    let list = watch(&mut system, &start, (0, force, free), &directions).unwrap().positions;
     for one in &list {
         let mut pull = ConnectorPull::default();
         BodyConnectors::on_body(&system, 0).unwrap().pull(&system, &[one.pose], &mut pull).unwrap();

@@ -61,9 +61,9 @@ fn column(records: &str, command: &str, selector: &str) -> Vec<f64> {
 }
 
 /// The rows of quantities and values that STAB_OK and KG_ALLOW print.
-fn value(text: &str, name: &str, place: usize) -> f64 {
+fn value(text: &str, name: &str, position: usize) -> f64 {
     let line = text.lines().find(|line| line.split_whitespace().nth(1) == Some(name));
-    let word = line.and_then(|line| line.split_whitespace().nth(place)).and_then(|word| word.parse().ok());
+    let word = line.and_then(|line| line.split_whitespace().nth(position)).and_then(|word| word.parse().ok());
     word.unwrap_or_else(|| panic!("{name} in {text}"))
 }
 
@@ -229,10 +229,10 @@ fn angles_of_leaning_body_start_at_its_equilibrium() {
 #[test]
 fn allowable_kg_matches_closed_forms() {
     let records = barge(OWN, "*VENT 45.75 -13.75 4.2588\n&DESCRIBE HOLE V V_VALVE -POINT *VENT\n");
-    let kg = |options: &str, name: &str, place: usize| {
+    let kg = |options: &str, name: &str, position: usize| {
         let (text, said) = print_records(&format!("{records}HSTATICS\nKG_ALLOW 1 9 {options}\nREPORT\nEND\nEND\n"));
         assert!(said.is_empty(), "{said:?}");
-        value(&text, name, place)
+        value(&text, name, position)
     };
     // without a criterion KM; GM >= 0.15 takes that from it
     assert!((kg("", "KM", 5) - km()).abs() < 6e-5);

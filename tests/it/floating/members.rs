@@ -60,7 +60,7 @@ fn force(load: &dyn BodyLoad, time: f64) -> Six {
     load_at(load, time, &Pose::default(), &Six::zeros()).load.wrench
 }
 
-fn place(values: [f64; 6]) -> Pose {
+fn position(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
     Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
@@ -164,8 +164,11 @@ fn buoyancy_in_rising_level_matches_tube_in_new_level() {
         let model = body(piece, "");
         let tube = TubeHull { ends: [from, to].map(Vector3::from), diameter: od };
         let floating = Floating::under_way(&model, &model.bodies["B"], Some(&sea)).unwrap();
-        for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 4.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])]
-        {
+        for pose in [
+            position([0.0; 6]),
+            position([3.0, 2.0, -1.0, 4.0, -7.0, 30.0]),
+            position([0.0, 0.0, 1.5, 80.0, 0.0, 10.0]),
+        ] {
             let sum: Vec<DynamicLoad> =
                 floating.loads.iter().map(|load| load_at(load.as_ref(), 0.0, &pose, &Six::zeros())).collect();
             let got: Six = sum.iter().map(|m| m.load.wrench).sum();
@@ -195,7 +198,9 @@ fn steady_current_in_time_domain_matches_statics() {
     let at_rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
     let statics = at_rest.loads.iter().find(|l| l.category() == Category::ViscousDrag).unwrap();
     let moving = members(&model, None);
-    for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 14.0, -7.0, 30.0]), place([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])] {
+    for pose in
+        [position([0.0; 6]), position([3.0, 2.0, -1.0, 14.0, -7.0, 30.0]), position([0.0, 0.0, 1.5, 80.0, 0.0, 10.0])]
+    {
         let (got, want) =
             (load_at(moving.as_ref(), 5.0, &pose, &Six::zeros()).load.wrench, statics.mean_load(&pose).unwrap().wrench);
         assert!((got - want).norm() <= 1e-12 * want.norm(), "{got} {want}");
@@ -236,7 +241,7 @@ fn static_drag_tangent_matches_finite_differences() {
         [0.0, 0.0, 2.0, -100.0, 25.0, 200.0],
         [5.0, 3.0, 0.2, 1.5, -0.7, 30.0],
     ] {
-        let pose = place(pose);
+        let pose = position(pose);
         let (got, want) = (load.mean_load(&pose).unwrap().stiffness, differences(load.as_ref(), &pose));
         // rounding of the differences over steps of 1e-5 m and 1e-6 rad
         assert!((got - want).norm() <= 1e-6 * want.norm(), "{got} {want}");
@@ -247,7 +252,7 @@ fn static_drag_tangent_matches_finite_differences() {
 fn damping_matches_finite_differences_and_drag_only_dissipates() {
     let model = body("TUBE T *E *F 7000 -CD 0.9 -CDA 0.03\nTUBE U *C *D 3000\nTUBE V *A *G 2000", "");
     let load = members(&model, None);
-    for pose in [place([0.0; 6]), place([3.0, 2.0, -1.0, 14.0, -7.0, 30.0])] {
+    for pose in [position([0.0; 6]), position([3.0, 2.0, -1.0, 14.0, -7.0, 30.0])] {
         for n in 0..40 {
             let one = |i: usize| ((n * 6 + i) as f64 * 2.399).sin() * if i < 3 { 2.0 } else { 0.1 };
             let velocity = Six::from_iterator((0..6).map(one));
@@ -287,7 +292,7 @@ fn submerged_pontoon_force_is_cm_times_displaced_mass() {
     let model = body("TUBE P *C *D 3000 -CD 0 -CA 1.1", "");
     let k = w * w / G;
     let load = members(&model, Some(&wave(a, w, PI / 2.0, None, Stretching::Linear)));
-    let pose = place([0.0, 0.0, -d, 0.0, 0.0, 0.0]);
+    let pose = position([0.0, 0.0, -d, 0.0, 0.0, 0.0]);
     let mass = RHO * PI * 9.0 / 4.0 * 60.0 * 2.1;
     for phase in [0.0, 1.0, 2.5] {
         let got = load_at(load.as_ref(), phase / w, &pose, &Six::zeros()).load.wrench;
@@ -305,7 +310,7 @@ fn pontoon_ends_along_wave_carry_pressure_difference() {
     let model = body("TUBE P *C *D 3000 -CD 0 -CA 0", "");
     let k = w * w / G;
     let load = members(&model, Some(&wave(a, w, 0.0, None, Stretching::Linear)));
-    let got = load_at(load.as_ref(), 1.3, &place([0.0, 0.0, -d, 0.0, 0.0, 0.0]), &Six::zeros()).load.wrench;
+    let got = load_at(load.as_ref(), 1.3, &position([0.0, 0.0, -d, 0.0, 0.0, 0.0]), &Six::zeros()).load.wrench;
     let pressure = |x: f64| RHO * G * a * (-k * d).exp() * (k * x - w * 1.3).cos();
     assert_share(got[0], PI * 9.0 / 4.0 * (pressure(-30.0) - pressure(30.0)), 1e-11);
 }
@@ -330,9 +335,9 @@ fn end_joined_to_another_piece_has_no_added_mass() {
     // a pontoon of 3 m under water: half spheres of its diameter over its ends, along its axis
     let along = |caa: &str| {
         let model = body(&format!("TUBE P *C *D 3000 -CA 0 {caa}"), "");
-        let deep = place([0.0, 0.0, -20.0, 0.0, 0.0, 0.0]);
+        let deep = position([0.0, 0.0, -20.0, 0.0, 0.0, 0.0]);
         let mut lowered = model.clone();
-        lowered.bodies.get_mut("B").unwrap().place.shift = deep.origin.into();
+        lowered.bodies.get_mut("B").unwrap().position.shift = deep.origin.into();
         Floating::at_rest(&lowered, &lowered.bodies["B"]).unwrap().added_mass[(0, 0)]
     };
     let half_sphere = RHO * PI * 27.0 / 12.0;
@@ -345,7 +350,7 @@ fn end_joined_to_another_piece_has_no_added_mass() {
 fn added_mass_change_with_surface_is_in_step_inertia() {
     let model = body("TUBE S *A *B 20000 -CD 0 -CA 0.9", "");
     let load = members(&model, None);
-    let (start, deeper) = (Pose::default(), place([0.0, 0.0, -5.0, 0.0, 0.0, 0.0]));
+    let (start, deeper) = (Pose::default(), position([0.0, 0.0, -5.0, 0.0, 0.0, 0.0]));
     let before = Six::new(1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     let now = BodyStep { time: 0.0, dt: 0.0, pose: &start, velocity: &before };
     let mut state = begin_step(load.as_ref(), &now);
@@ -428,13 +433,13 @@ fn very_long_waves_lift_box_like_a_tide() {
     let component = Component { frequency: 1e-6, number: 1e-10, amplitude: 1.7, toward: [1.0, 0.0], phase: 0.0 };
     let sea = Arc::new(Sea::airy(vec![component], water(None), 0.0, Stretching::Linear));
     let hull = windlass_hydro::hull::Surface::block([-30.0, -10.0, -8.0], [30.0, 10.0, 6.0]);
-    for pose in [Pose::default(), place([0.0, 0.0, 1.0, 25.0, -10.0, 50.0])] {
+    for pose in [Pose::default(), position([0.0, 0.0, 1.0, 25.0, -10.0, 50.0])] {
         let got = on_a_box(&sea, 0.0, &pose);
         let at = |level: f64| hull.wet(&pose, level).load(RHO * G).wrench;
         let want = at(1.7) - at(0.0);
         assert!((got - want).norm() <= 1e-7 * want.norm(), "{got} {want}");
     }
     let calm = wave(0.0, 0.7, 0.0, None, Stretching::Wheeler);
-    let left = on_a_box(&calm, 0.0, &place([0.0, 0.0, 1.0, 25.0, -10.0, 50.0]));
+    let left = on_a_box(&calm, 0.0, &position([0.0, 0.0, 1.0, 25.0, -10.0, 50.0]));
     assert!(left.norm() <= 1e-12 * RHO * G * 16_800.0 * 30.0, "{left}");
 }

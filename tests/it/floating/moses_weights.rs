@@ -45,10 +45,10 @@ fn computed_weight_of_heeled_body_lies_on_vertical_through_buoyancy() {
     );
     assert_eq!(errors, 0, "{text}");
     // nothing moves it: roll 4, trim 0.5 as they were given
-    let place = row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ");
-    check_near(place[2], -2.8, 0.0051);
-    check_near(place[3], 4.0, 0.0051);
-    check_near(place[4], 0.5, 0.0051);
+    let position = row(&text[text.find("C O N F I G U R A T I O N").unwrap_or(0)..], "B ");
+    check_near(position[2], -2.8, 0.0051);
+    check_near(position[3], 4.0, 0.0051);
+    check_near(position[4], 0.5, 0.0051);
     check_near(fact(&text, "Center of Gravity X"), fact(&text, "Center of Buoyancy X"), 0.0101);
     check_near(fact(&text, "Center of Gravity Y"), fact(&text, "Center of Buoyancy Y"), 0.0101);
 }
@@ -271,8 +271,8 @@ fn instate_takes_body_before_its_options() {
         let records = format!("MEDIT\n&DESCRIBE BODY A\n&DESCRIBE BODY B\nEND\n&INSTATE {form}\n&STATUS CONFIGURATION");
         let (text, errors) = print_records(&records);
         assert_eq!(errors, 0, "{text}");
-        let place = row(&text, "B ");
-        assert_eq!([place[2], place[3], place[4]], [-9.0, 2.0, 1.0], "{text}");
+        let position = row(&text, "B ");
+        assert_eq!([position[2], position[3], position[4]], [-9.0, 2.0, 1.0], "{text}");
     }
     let (text, errors) = print_records(
         "MEDIT\n&DESCRIBE BODY A\n&DESCRIBE BODY B\nEND\n&INSTATE A -LOCATE 1 2 3 -MOVE 1 -MOVE B 5\n&STATUS CONFIGURATION",

@@ -201,18 +201,19 @@ impl Network {
             }
             if is_body && seeded.one_in(2) {
                 let knot = format!("J{number}K{i}");
-                let place = at + Vector3::new(seeded.draw(30.0, 60.0), seeded.draw(-30.0, 30.0), -40.0);
-                self.records.push_str(&format!("JUNCTION {knot} {} {} {} -WEIGHT 1000\n", place.x, place.y, place.z));
+                let position = at + Vector3::new(seeded.draw(30.0, 60.0), seeded.draw(-30.0, 30.0), -40.0);
+                self.records
+                    .push_str(&format!("JUNCTION {knot} {} {} {} -WEIGHT 1000\n", position.x, position.y, position.z));
                 self.junctions.push((knot.clone(), 1000.0, 0.0));
                 for side in [-8.0, 8.0] {
                     let on = Vector3::new(15.0, side, -4.0);
-                    self.add_shared_line((&name, on, at + on), (&knot, Vector3::zeros(), place), seeded);
+                    self.add_shared_line((&name, on, at + on), (&knot, Vector3::zeros(), position), seeded);
                 }
-                self.add_anchored_line((&knot, Vector3::zeros(), place), seeded);
+                self.add_anchored_line((&knot, Vector3::zeros(), position), seeded);
             }
-            if let Some((other, on, place)) = &before {
+            if let Some((other, on, position)) = &before {
                 let own = point(seeded);
-                self.add_shared_line((&name, own, at + own), (other, *on, *place), seeded);
+                self.add_shared_line((&name, own, at + own), (other, *on, *position), seeded);
             }
             let own = point(seeded);
             before = Some((name, own, at + own));
@@ -243,7 +244,7 @@ impl Network {
 
     /// The largest force that is left, over the largest at an end of a line there: in X, Y and Z of all, and the moment about Z of bodies.
     fn residual(&self, model: &Model) -> (f64, String) {
-        let pose = |name: &str| Pose::from_place(&model.bodies[name].place);
+        let pose = |name: &str| Pose::from_place(&model.bodies[name].position);
         let water = model.surroundings().water_weight();
         let mut sums: std::collections::BTreeMap<&str, (Vector3<f64>, f64, f64)> = Default::default();
         for (name, weight) in &self.floating {
@@ -257,11 +258,11 @@ impl Network {
             sums.insert(name, (Vector3::z() * (share * buoyancy - weight), 0.0, weight.max(*buoyancy)));
         }
         for (line, tips) in &self.lines {
-            let place = |tip: &Tip| match tip {
+            let position = |tip: &Tip| match tip {
                 Tip::Ground(at) => *at,
                 Tip::On(name, at) => pose(name).point(*at),
             };
-            let ends = [place(&tips[0]), place(&tips[1])];
+            let ends = [position(&tips[0]), position(&tips[1])];
             let forces = if ends[0].z >= ends[1].z {
                 line.forces(ends[0], ends[1])
             } else {
@@ -307,12 +308,12 @@ fn unconnected_junctions_settle_with_one_slow_junction() {
     assert!(found.found.search.iterations < 60, "{:?}", found.found);
     // the line hangs straight down from nothing: it lies on the bottom, and so does its end; scipy's fsolve of the catenary above gives
     // H = V = 0 for ends less than 1240 m apart at one height
-    let end = Vector3::from(model.bodies["J1"].place.shift);
+    let end = Vector3::from(model.bodies["J1"].position.shift);
     assert!((end - Vector3::new(978.0, 1100.0, -329.0)).norm() < 1240.0 && end.z + 329.0 < 0.011, "{end:?}");
     // the buoy floats with 10/166 of its volume in the water: h^2 (3R - h) = 4 R^3 10/166, by scipy.optimize.brentq h/R = 0.29866674520142716
     let water = model.surroundings().water_weight();
     let radius = (0.75 * 1.66e5 / water / std::f64::consts::PI).cbrt();
-    let z = model.bodies["J2"].place.shift[2];
+    let z = model.bodies["J2"].position.shift[2];
     assert!((z - radius * (1.0 - SHARE_OF_RADIUS)).abs() < 1e-6, "{z} {radius}");
 }
 

@@ -41,7 +41,7 @@ fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
 }
 
 /// A pose of the origin in feet and turns in degrees.
-fn place(values: [f64; 6]) -> Pose {
+fn position(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
     let [x, y, z] = [x * METRES_PER_FOOT, y * METRES_PER_FOOT, z * METRES_PER_FOOT];
     Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
@@ -53,19 +53,19 @@ const AFLOAT: [f64; 6] = [0.0, 0.0, -9.0, 0.0, 0.0, 0.0];
 fn wind_on_freeboard_matches_closed_form_at_its_centre() {
     let even = "-W_PROFILE POWER 0";
     // ahead: 11 x 100 ft2, 9 + 5.5 ft above the keel
-    let ahead = sum(&body(HULL, &format!("&ENV -WIND 60 180 {even}")), Category::Wind, &place(AFLOAT));
+    let ahead = sum(&body(HULL, &format!("&ENV -WIND 60 180 {even}")), Category::Wind, &position(AFLOAT));
     let force = WIND * 11.0 * 100.0 * METRES_PER_FOOT * METRES_PER_FOOT;
     assert_share(ahead[0], force, 1e-12);
     assert_share(ahead[4], 14.5 * METRES_PER_FOOT * force, 1e-12);
     assert!(ahead[1].abs() < 1e-6 * force && ahead[2].abs() < 1e-6 * force && ahead[5].abs() < 1e-6 * force);
     // abeam, from starboard (90): toward -y on 11 x 400 ft2, 200 ft aft of the origin
-    let beam = sum(&body(HULL, &format!("&ENV -WIND 60 90 {even}")), Category::Wind, &place(AFLOAT));
+    let beam = sum(&body(HULL, &format!("&ENV -WIND 60 90 {even}")), Category::Wind, &position(AFLOAT));
     assert_share(beam[1], -4.0 * force, 1e-12);
     assert_share(beam[3], 4.0 * force * 14.5 * METRES_PER_FOOT, 1e-12);
     assert_share(beam[5], -4.0 * force * 200.0 * METRES_PER_FOOT, 1e-12);
     // twice the coefficient across, none along
     let given = body(&format!("{HULL} -CS_WIND 0 2 1"), &format!("&ENV -WIND 60 90 {even}"));
-    assert_share(sum(&given, Category::Wind, &place(AFLOAT))[1], -8.0 * force, 1e-12);
+    assert_share(sum(&given, Category::Wind, &position(AFLOAT))[1], -8.0 * force, 1e-12);
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn wind_profile_is_integrated_over_freeboard() {
     // z^(2/7) from 1 m to h = 3.3528 m, and that of 1 m below it
     let (h, ten): (f64, f64) = (11.0 * METRES_PER_FOOT, 10f64.powf(-2.0 / 7.0));
     let factor = ten * (1.0 + 7.0 / 9.0 * (h.powf(9.0 / 7.0) - 1.0));
-    let got = sum(&body(HULL, "&ENV -WIND 60 180"), Category::Wind, &place(AFLOAT))[0];
+    let got = sum(&body(HULL, "&ENV -WIND 60 180"), Category::Wind, &position(AFLOAT))[0];
     // what the parabolas of a strip leave (hydro/strips.rs)
     assert_share(got, WIND * 100.0 * METRES_PER_FOOT * factor, 5e-4);
 }
@@ -95,13 +95,13 @@ fn every_wind_profile_matches_integration_by_fine_slices() {
 fn current_is_integrated_over_the_draft() {
     let current = |v: f64| 0.5 * 1025.0 * v * v;
     let even = body(HULL, "&ENV -CURRENT 2 90");
-    let got = sum(&even, Category::ViscousDrag, &place(AFLOAT));
+    let got = sum(&even, Category::ViscousDrag, &position(AFLOAT));
     let force = current(2.0 * METRES_PER_FOOT) * 9.0 * 400.0 * METRES_PER_FOOT * METRES_PER_FOOT;
     assert_share(got[1], -force, 1e-12);
     assert_share(got[3], force * 4.5 * METRES_PER_FOOT, 1e-12);
     // v = 2 (1 - d/40): its square from 0 to 9 ft is 4 x 40/3 (1 - (31/40)^3) ft
     let curve = "&DATA CURVES C_PROFILE C 0 2 40 0\n&ENV -CURRENT C 90";
-    let got = sum(&body(HULL, curve), Category::ViscousDrag, &place(AFLOAT));
+    let got = sum(&body(HULL, curve), Category::ViscousDrag, &position(AFLOAT));
     let long = 40.0 / 3.0 * (1.0 - 0.775f64.powi(3));
     assert_share(got[1], -force * long / 9.0, 1e-12);
     // int (1 - d/40)^2 d dd = 1600 (1/12 - q^3/3 + q^4/4), q = 31/40, at 9 - d above the keel
@@ -113,12 +113,12 @@ fn current_is_integrated_over_the_draft() {
 fn tide_raises_waterline() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180 -DEPTH 600 -TIDE 5");
     assert_share(
-        sum(&model, Category::Wind, &place(AFLOAT))[0],
+        sum(&model, Category::Wind, &position(AFLOAT))[0],
         WIND * 600.0 * METRES_PER_FOOT * METRES_PER_FOOT,
         1e-12,
     );
     assert_share(
-        sum(&model, Category::ViscousDrag, &place(AFLOAT))[0],
+        sum(&model, Category::ViscousDrag, &position(AFLOAT))[0],
         512.5 * 4.0 * 1400.0 * METRES_PER_FOOT.powi(4),
         1e-12,
     );
@@ -136,15 +136,15 @@ fn capsized_dry_or_sunken_box_has_projected_areas_of_its_pose() {
         // on its side: 100 ft high
         ([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], 10.0, 10.0),
     ] {
-        assert_share(sum(&model, Category::Wind, &place(pose))[0], air * out, 1e-9);
-        assert_share(sum(&model, Category::ViscousDrag, &place(pose))[0], water * under, 1e-9);
+        assert_share(sum(&model, Category::Wind, &position(pose))[0], air * out, 1e-9);
+        assert_share(sum(&model, Category::ViscousDrag, &position(pose))[0], water * under, 1e-9);
     }
 }
 
 #[test]
 fn pitched_dry_box_exposes_its_bottom_too() {
     let model = body(HULL, "&ENV -WIND 60 180 -W_PROFILE POWER 0");
-    let got = sum(&model, Category::Wind, &place([0.0, 0.0, 200.0, 0.0, 10.0, 0.0]));
+    let got = sum(&model, Category::Wind, &position([0.0, 0.0, 200.0, 0.0, 10.0, 0.0]));
     // along x: A_x cos^2 + A_z sin^2 with 2,000 and 40,000 ft2; up: (A_z - A_x) sin cos
     let (sin, cos) = 10f64.to_radians().sin_cos();
     assert_share(got[0], WIND * METRES_PER_FOOT * METRES_PER_FOOT * (2000.0 * cos * cos + 40_000.0 * sin * sin), 1e-12);
@@ -158,7 +158,7 @@ fn vertical_area_on_even_keel_matches_deck() {
     let found = floating(&model);
     let lift = |category| {
         let mine = found.loads.iter().find(|l| l.category() == category).unwrap();
-        mine.mean_load(&place(AFLOAT)).unwrap().stiffness[(2, 4)]
+        mine.mean_load(&position(AFLOAT)).unwrap().stiffness[(2, 4)]
     };
     assert_share(lift(Category::Wind), -WIND * METRES_PER_FOOT * METRES_PER_FOOT * (40_000.0 - 1100.0), 1e-12);
     assert_share(
@@ -216,7 +216,7 @@ fn piece_without_displacement_takes_wind_only_on_request() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0 -CURRENT 2 180";
     let forces = |records: &str| {
         let model = body(records, env);
-        [Category::Wind, Category::ViscousDrag].map(|c| sum(&model, c, &place(AFLOAT))[0])
+        [Category::Wind, Category::ViscousDrag].map(|c| sum(&model, c, &position(AFLOAT))[0])
     };
     assert_eq!(forces(&format!("{HULL} -PERM 0")), [0.0; 2]);
     assert_eq!(forces(&format!("{HULL} -PERM -1")), [0.0; 2]);
@@ -230,7 +230,7 @@ fn piece_without_displacement_takes_wind_only_on_request() {
 fn multipliers_scale_piece_loads() {
     let env = "&ENV -WIND 60 180 -W_PROFILE POWER 0\n&APPLY -PERCENT -FORCE WIND 50";
     assert_share(
-        sum(&body(HULL, env), Category::Wind, &place(AFLOAT))[0],
+        sum(&body(HULL, env), Category::Wind, &position(AFLOAT))[0],
         WIND * 550.0 * METRES_PER_FOOT * METRES_PER_FOOT,
         1e-12,
     );
@@ -276,7 +276,7 @@ fn piece_load_tangent_matches_finite_differences_in_any_pose() {
                 [5.0, 3.0, -11.0, 1.5, -0.7, 30.0],
                 [5.0, 3.0, 150.0, 35.0, -7.0, 30.0],
             ] {
-                let pose = place(pose);
+                let pose = position(pose);
                 for load in loads.clone() {
                     let (found, want) = (load.mean_load(&pose).unwrap(), differences(load.as_ref(), &pose));
                     let scale = want.amax().max(found.wrench.amax());

@@ -89,7 +89,7 @@ fn fender_forces_balance_hawser_forces_in_calm() {
     assert!((fenders + hawsers).abs() < 1e-6, "{fenders} {hawsers}");
     // symmetric about the middle of the barges, and the two barges roll alike against each other
     assert!((hand[0].1 - hand[2].1).norm() < 1e-8 && (hand[0].1 - hand[1].1).norm() < 1e-8);
-    let roll = |body: &str| model.bodies.get(body).unwrap().place.values()[3];
+    let roll = |body: &str| model.bodies.get(body).unwrap().position.values()[3];
     assert!(roll("INNER") < 0.0 && (roll("INNER") + roll("OUTER")).abs() < 0.05 * roll("OUTER"), "{}", roll("OUTER"));
     for (name, force, _) in &hand {
         let got = printed_forces(&screen, name);

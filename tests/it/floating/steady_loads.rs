@@ -21,7 +21,7 @@ fn sum(model: &Model, category: Category, pose: &Pose) -> Six {
     floating.loads.iter().filter(|l| l.category() == category).map(|l| l.mean_load(pose).unwrap().wrench).sum()
 }
 
-fn place(values: [f64; 6]) -> Pose {
+fn position(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
     Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
@@ -45,7 +45,7 @@ fn wind_of_sixty_knots_on_area_matches_closed_form() {
 fn wind_acts_from_its_direction_and_rotates_with_body() {
     // from 90: it blows toward -y; on a body yawed by 90 degrees that is from ahead, on the area along x
     let model = body("*P 0 0 10\n#AREA *P 100 400", "&ENV -WIND 60 90");
-    let got = sum(&model, Category::Wind, &place([0.0, 0.0, 0.0, 0.0, 0.0, 90.0]));
+    let got = sum(&model, Category::Wind, &position([0.0, 0.0, 0.0, 0.0, 0.0, 90.0]));
     assert_share(got[1], -58_403.6, 1e-6);
     assert!(got[0].abs() < 1e-9);
 }
@@ -151,7 +151,7 @@ fn current_acts_below_water_and_wind_above() {
     assert_eq!(sum(&deep, Category::Wind, &Pose::default())[0], 0.0);
     // 1/2 x 1025 x 10 x 4
     assert_share(sum(&deep, Category::ViscousDrag, &Pose::default())[0], 20_500.0, 1e-12);
-    let risen = place([0.0, 0.0, 20.0, 0.0, 0.0, 0.0]);
+    let risen = position([0.0, 0.0, 20.0, 0.0, 0.0, 0.0]);
     assert_eq!(sum(&deep, Category::ViscousDrag, &risen)[0], 0.0);
     assert!(sum(&deep, Category::Wind, &risen)[0] > 0.0);
     let loaded = body("*P 0 0 5\n#AREA *P 10 -FLUID WATER", "&ENV -WIND 60 180 -CURRENT 2 180");
@@ -166,13 +166,13 @@ fn load_table_is_read_at_relative_heading() {
     let ahead = sum(&model, Category::ViscousDrag, &Pose::default());
     assert_share(ahead[0], 80.0 * 4.0, 1e-12);
     // the body yawed by 90: what comes from 180 comes from its 90; its -y is global +x
-    let yawed = place([0.0, 0.0, 0.0, 0.0, 0.0, 90.0]);
+    let yawed = position([0.0, 0.0, 0.0, 0.0, 0.0, 90.0]);
     let side = sum(&model, Category::ViscousDrag, &yawed);
     assert_share(side[0], 900.0 * 4.0, 1e-12);
     // the point is at global (0, 50, -3): yaw moment of the table, and of the force: -50 x 3600
     assert_share(side[5], 70.0 * 4.0 - 50.0 * 3600.0, 1e-12);
     // from -90 the mirror: sway and yaw change sign
-    let other = sum(&model, Category::ViscousDrag, &place([0.0, 0.0, 0.0, 0.0, 0.0, -90.0]));
+    let other = sum(&model, Category::ViscousDrag, &position([0.0, 0.0, 0.0, 0.0, 0.0, -90.0]));
     assert_share(other[0], 3600.0, 1e-12);
     assert_share(other[5], -70.0 * 4.0 + 50.0 * 3600.0, 1e-12);
 }
@@ -287,7 +287,7 @@ fn every_load_tangent_matches_finite_differences_in_any_pose() {
             [10.0, -20.0, 0.3, 12.0, -17.0, 63.0],
             [0.0, 0.0, -3.0, -30.0, 25.0, 200.0],
         ] {
-            let pose = place(pose);
+            let pose = position(pose);
             for load in &floating.loads {
                 let found = load.mean_load(&pose).unwrap();
                 let want = differences(load.as_ref(), &pose);

@@ -17,7 +17,7 @@ fn floating(model: &Model) -> Floating {
     Floating::under_way(model, &model.bodies["B"], None).unwrap()
 }
 
-fn place(values: [f64; 6]) -> Pose {
+fn position(values: [f64; 6]) -> Pose {
     let [x, y, z, roll, pitch, yaw] = values;
     Pose::from_place(&Place::new([x, y, z, roll.to_radians(), pitch.to_radians(), yaw.to_radians()]))
 }
@@ -60,7 +60,7 @@ fn time_domain_damping_and_stiffness_match_finite_differences() {
         let loads = all(environment);
         assert!(loads.len() >= 9, "{}", loads.len());
         for pose in [[0.0; 6], [10.0, -20.0, 0.3, 12.0, -17.0, 63.0], [0.0, 0.0, -3.0, -30.0, 25.0, 200.0]] {
-            let (pose, velocity) = (place(pose), Six::new(1.3, -0.7, 0.4, 0.05, -0.03, 0.08));
+            let (pose, velocity) = (position(pose), Six::new(1.3, -0.7, 0.4, 0.05, -0.03, 0.08));
             for load in &loads {
                 let found = load_of_moving_body(load.as_ref(), 40.0, &pose, &velocity);
                 let (mut stiffness, mut damping) = (Matrix6::zeros(), Matrix6::zeros());
@@ -99,7 +99,7 @@ fn time_domain_damping_and_stiffness_match_finite_differences() {
 #[test]
 fn load_at_rest_in_mean_stream_matches_statics() {
     for load in all("&ENV -WIND 50 130 -CURRENT P 110 Q 250 -DEPTH 90 -TIDE 1") {
-        let pose = place([10.0, -20.0, 0.3, 12.0, -17.0, 63.0]);
+        let pose = position([10.0, -20.0, 0.3, 12.0, -17.0, 63.0]);
         let (rest, under_way) =
             (load.mean_load(&pose).unwrap(), load_of_moving_body(load.as_ref(), 3.0, &pose, &Six::zeros()).load);
         assert!((rest.wrench - under_way.wrench).amax() <= 1e-14 * rest.wrench.amax());
@@ -357,13 +357,13 @@ fn growth_adds_weight_buoyancy_and_inertia() {
     assert_share(of(Category::Weight, &Pose::default()), -1400.0 * 9.80665 * volume, 1e-9);
     assert_share(of(Category::Buoyancy, &Pose::default()), 1025.0 * 9.80665 * volume, 1e-9);
     // risen by 7.3 m, so much of it is dry
-    let risen = place([0.0, 0.0, 7.3, 0.0, 0.0, 0.0]);
+    let risen = position([0.0, 0.0, 7.3, 0.0, 0.0, 0.0]);
     assert_share(of(Category::Buoyancy, &risen), 1025.0 * 9.80665 * volume * (1.0 - 7.3 / 30.0), 1e-9);
     assert_share(floating.added_mass[(0, 0)], 1400.0 * volume, 1e-12);
     // its centre is 15 m below the origin: surge turns it, and a rod of 30 m has length^2/12 beside that, in rings of a metre
     assert_share(floating.added_mass[(4, 0)], -15.0 * 1400.0 * volume, 1e-12);
     assert_share(floating.added_mass[(4, 4)], 1400.0 * volume * (225.0 + (900.0 - 1.0) / 12.0), 1e-9);
-    for pose in [risen, place([3.0, 1.0, 7.3, 8.0, -5.0, 20.0])] {
+    for pose in [risen, position([3.0, 1.0, 7.3, 8.0, -5.0, 20.0])] {
         for load in floating.loads.iter().filter(|l| l.category() == Category::Buoyancy) {
             let found = load.mean_load(&pose).unwrap();
             let mut want = Matrix6::zeros();

@@ -171,9 +171,9 @@ fn file_never_closed_is_written_whole_and_named_at_any_end() {
         assert_eq!(run.code, Some(code), "{end}: {}", run.err);
         assert_eq!(run.read("job.ans/n.txt").as_deref(), Some("one\nthree\n"), "{end}");
         assert_eq!(run.read("o.txt").as_deref(), Some("two\n"), "{end}");
-        for (name, place) in [("job.ans/n.txt", "job.cif:1:17"), ("./o.txt", "job.cif:2:16")] {
+        for (name, position) in [("job.ans/n.txt", "job.cif:1:17"), ("./o.txt", "job.cif:2:16")] {
             let note = format!("note: {name} was not closed and is written as it stands");
-            assert!(run.err.contains(&note) && run.err.contains(place), "{end}: {}", run.err);
+            assert!(run.err.contains(&note) && run.err.contains(position), "{end}: {}", run.err);
         }
     }
 }
@@ -259,8 +259,8 @@ fn refused_copy_or_move_points_at_offending_name() {
     let script = "&FILE OPEN T h.txt\n&FILE CLOSE T\n&FILE CP h.txt ./new.txt\n&FILE MV h.txt ./new.txt\n&FILE CP h.txt h.txt\n\
                   &FILE CP none new.txt\n&FILE MV ./job.cif new.txt\n&FILE CP h.txt none/x\n";
     let run = ProcessRun::start(script, &[]);
-    for place in ["job.cif:3:16", "job.cif:4:16", "job.cif:5:16", "job.cif:6:10", "job.cif:7:10", "job.cif:8:16"] {
-        assert!(run.err.contains(place), "{place}: {}", run.err);
+    for position in ["job.cif:3:16", "job.cif:4:16", "job.cif:5:16", "job.cif:6:10", "job.cif:7:10", "job.cif:8:16"] {
+        assert!(run.err.contains(position), "{position}: {}", run.err);
     }
 }
 

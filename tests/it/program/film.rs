@@ -69,11 +69,11 @@ fn film_page_holds_every_instant_with_bodies_and_lines_in_place() {
     assert_eq!((body["name"].as_str().unwrap(), poses.len(), history.len()), ("SHIP", 7 * 31, 31));
     let at = history.layout.body(0);
     for (row, pose) in [(0, &poses[..7]), (30, &poses[7 * 30..])] {
-        let place = &history.rows().nth(row).unwrap()[at..at + 6];
+        let position = &history.rows().nth(row).unwrap()[at..at + 6];
         // numbers of 32 bits have 24 of their own: 6e-8 of their size
-        assert!(pose.iter().zip(&place[..3]).all(|(p, q)| (p - q).abs() <= 6e-8 * q.abs()), "{pose:?} {place:?}");
-        let half = 0.5 * place[5];
-        assert!((pose[5] - half.sin()).abs() < 1e-7 && (pose[6] - half.cos()).abs() < 1e-7, "{pose:?} {place:?}");
+        assert!(pose.iter().zip(&position[..3]).all(|(p, q)| (p - q).abs() <= 6e-8 * q.abs()), "{pose:?} {position:?}");
+        let half = 0.5 * position[5];
+        assert!((pose[5] - half.sin()).abs() < 1e-7 && (pose[6] - half.cos()).abs() < 1e-7, "{pose:?} {position:?}");
     }
     // twelve triangles of a box of 40 by 12 by 8 m
     assert_eq!(bytes(&body["triangles"]).len(), 12 * 3 * 4);

@@ -58,19 +58,19 @@ fn apply_mutations(bytes: &[u8], changes: &[Mutation]) -> Vec<u8> {
     let mut out = bytes.to_vec();
     for change in changes {
         let size = out.len();
-        let place = |at: &Index| at.index(size + 1);
+        let position = |at: &Index| at.index(size + 1);
         let piece = |from: usize, count: usize| from..(from + count).min(size);
         match change {
             Mutation::Set(at, byte) if size > 0 => out[at.index(size)] = *byte,
             Mutation::Set(..) => {}
-            Mutation::Insert(at, bytes) => drop(out.splice(place(at)..place(at), bytes.iter().copied())),
-            Mutation::Word(at, word) => drop(out.splice(place(at)..place(at), word.bytes())),
-            Mutation::Delete(at, count) => drop(out.drain(piece(place(at), *count))),
+            Mutation::Insert(at, bytes) => drop(out.splice(position(at)..position(at), bytes.iter().copied())),
+            Mutation::Word(at, word) => drop(out.splice(position(at)..position(at), word.bytes())),
+            Mutation::Delete(at, count) => drop(out.drain(piece(position(at), *count))),
             Mutation::Copy(from, to, count) => {
-                let copy = out[piece(place(from), *count)].to_vec();
-                drop(out.splice(place(to)..place(to), copy));
+                let copy = out[piece(position(from), *count)].to_vec();
+                drop(out.splice(position(to)..position(to), copy));
             }
-            Mutation::Cut(at) => out.truncate(place(at)),
+            Mutation::Cut(at) => out.truncate(position(at)),
         }
     }
     out

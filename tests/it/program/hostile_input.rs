@@ -58,9 +58,9 @@ fn binary_input_is_error() {
         run(b"\xef\xbb\xbf&TYPE one\n&TYPE caf\xc3\xa9\xff\xfe\r\n&TYPE two\n$ \xe9\n&TYPE a\0b\n&TYPE three");
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(out.lines().collect::<Vec<_>>(), ["one", "two", "three"], "{err}");
-    for (byte, place) in [("0xFF", "2:11"), ("0xE9", "4:3"), ("0x00", "5:8")] {
-        let (message, place) = (format!("the byte {byte} is not text"), format!("standard input:{place}"));
-        assert!(err.contains(&message) && err.contains(&place), "{message} at {place}: {err}");
+    for (byte, position) in [("0xFF", "2:11"), ("0xE9", "4:3"), ("0x00", "5:8")] {
+        let (message, position) = (format!("the byte {byte} is not text"), format!("standard input:{position}"));
+        assert!(err.contains(&message) && err.contains(&position), "{message} at {position}: {err}");
     }
     assert_eq!(err.matches("error:").count(), 3, "{err}");
     assert!(err.contains("&TYPE caf\u{e9}\u{fffd}\u{fffd}"), "what was read is shown: {err}");
@@ -90,8 +90,8 @@ fn binary_lines_are_errors_and_other_lines_run() {
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert_eq!(output.status.code(), Some(1));
     assert!(["a", "b", "c", "d"].iter().all(|word| out.lines().any(|l| l == *word)), "{out}{err}");
-    for place in ["job.cif:2:1", "in.cif:2:3", "job.dat:2:8"] {
-        assert!(err.contains(place), "{place}: {err}");
+    for position in ["job.cif:2:1", "in.cif:2:3", "job.dat:2:8"] {
+        assert!(err.contains(position), "{position}: {err}");
     }
     assert_eq!(err.matches("is not text").count(), 3, "{err}");
     let output = run(&["--batch", "job.cif"]);
@@ -113,10 +113,10 @@ fn binary_lines_of_pipe_are_errors_and_others_run() {
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(out.lines().collect::<Vec<_>>(), ["first", "a", "b   c", "d"], "{err}");
-    for (place, count) in
+    for (position, count) in
         [("terminal:2:7", 1), ("terminal:6:7", 1), ("bad.cif:", 10), ("what was being read is given up", 1)]
     {
-        assert_eq!(err.matches(place).count(), count, "{place}: {err}");
+        assert_eq!(err.matches(position).count(), count, "{position}: {err}");
     }
 }
 

@@ -156,9 +156,13 @@ fn bodies_joined_by_fix_hang_plumb_below_their_pin() {
             assert!(found.found.search.residual < 1e-9, "{weight} {far} {:?}", found.found);
             for body in model.bodies.values() {
                 let give = 1e-6 + 3.0 * weight / 1e12;
-                let off = [0, 1].map(|i| (body.place.shift[i] - far).abs()).into_iter().fold(0.0, f64::max);
-                assert!(off < give && (body.place.shift[2] + 10.0).abs() < give, "{weight} {far} {:?}", body.place);
-                assert!(body.place.turn.iter().all(|t| t.abs() < 1e-7), "{weight} {far} {:?}", body.place);
+                let off = [0, 1].map(|i| (body.position.shift[i] - far).abs()).into_iter().fold(0.0, f64::max);
+                assert!(
+                    off < give && (body.position.shift[2] + 10.0).abs() < give,
+                    "{weight} {far} {:?}",
+                    body.position
+                );
+                assert!(body.position.turn.iter().all(|t| t.abs() < 1e-7), "{weight} {far} {:?}", body.position);
             }
             // the pin carries both, the tie the lower one; what reports print is the law's force: 1e12 N/m times the rounding of places
             let list = found.system.contributions(&found.state.poses).unwrap();

@@ -83,10 +83,10 @@ fn harmonic(history: &History, at: usize, (period, count): (f64, usize)) -> Comp
 #[test]
 fn offset_and_slow_yaw_shift_phase_and_heading() {
     // held 30 m down the wave the force comes 30 k later; turned by 20 degrees the round body feels it across by tan(20)
-    let excited = |place: &str, dofs: &str| {
+    let excited = |position: &str, dofs: &str| {
         let model = ball(
             "-SEA REGULAR 180 2 7 -TIME 140 0.1 -RAMP 20",
-            &format!("END\n&DESCRIBE BODY BALL -IGNORE {dofs}\n&INSTATE -LOCATE BALL {place}\nMEDIT"),
+            &format!("END\n&DESCRIBE BODY BALL -IGNORE {dofs}\n&INSTATE -LOCATE BALL {position}\nMEDIT"),
         );
         let made = run(&model, (140.0, 0.1));
         let at = made.history.layout.category(0, Category::Wave).unwrap();

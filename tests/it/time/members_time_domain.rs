@@ -234,13 +234,13 @@ fn member_wetted_by_waves_converges_with_second_order() {
     let records = "*W 0 0 -30\n#WEIGHT *W 25263 10 10 10\n&DESCRIBE BODY B -IGNORE Y RX RY RZ";
     let sea = "&ENV -DEPTH 345 -SEA STOKES 180 6 10 -STRETCHING EXPONENTIAL -RAMP 0";
     let model = body(records, "TUBE S *A *B 8000 -CD 0 -CA 1", sea);
-    let place = |dt: f64| {
+    let position = |dt: f64| {
         let run = runs::run(&model, settings(20.0, dt), vec![]);
         let at = run.history.layout.body(0);
         let row = run.history.rows().last().unwrap();
         [row[at], row[at + 2]]
     };
-    let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(place);
+    let [coarse, middle, fine] = [0.1, 0.05, 0.025].map(position);
     for dof in 0..2 {
         let [first, second] = [(coarse, middle), (middle, fine)].map(|(a, b)| (a[dof] - b[dof]).abs());
         // 4 of the second order, 2 of the first; and what is left is small

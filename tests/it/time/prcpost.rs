@@ -115,11 +115,11 @@ fn points_of_interest_move_with_body_in_wave_of_run() {
     assert_near(&vectors(&table, "*P Location", ["X", "Y", "Z"]), at, 0.2, 1e-10);
     assert_near(&vectors(&table, "*P Motion", ["DX", "DY", "DZ"]), |t| at(t) - Vector3::from(marked), 0.2, 1e-10);
     let level = |at: Vector3<f64>, t: f64| 1.5 * (0.04 * (0.6 * at.x + 0.8 * at.y) - 0.6 * t + 0.3).cos();
-    for (name, place) in [("*P Waves", None), ("*G Waves", Some(Vector3::new(100.0, 50.0, 3.0)))] {
+    for (name, position) in [("*P Waves", None), ("*G Waves", Some(Vector3::new(100.0, 50.0, 3.0)))] {
         let (waves, clear) = (column(&table, name, "W. Elv"), column(&table, name, "Clearance"));
         for i in 0..waves.len() {
             let t = 0.2 * i as f64;
-            let at = place.unwrap_or(at(t));
+            let at = position.unwrap_or(at(t));
             assert!((waves[i] - level(at, t)).abs() < 1e-9, "{name} {t}: {}", waves[i]);
             assert!((clear[i] - (at.z - 0.25 - level(at, t))).abs() < 1e-9);
         }
@@ -173,8 +173,8 @@ fn line_forces_match_catenary_at_every_event() {
         Action { name: "W".into(), when: Trigger::At(10.0), what: ActionKind::Winch(vec!["A".into()], 0.3, None) };
     let made = run(&model, (30.0, 0.5), &[], vec![winch]);
     let events = results::events(&made.history, None).unwrap();
-    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
-    let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
+    let positions = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
+    let (at, yaw) = (vectors(&positions, "Location", ["X", "Y", "Z"]), column(&positions, "Location", "Yaw"));
     for (link, (line, point)) in [("A", "*A"), ("B", "*B"), ("D", "*D")].into_iter().enumerate() {
         let table = results::connector_forces(&made, &[link], Magnitude::default(), &events).unwrap();
         let forces = vectors(&table, "Force", ["FX", "FY", "FZ"]);
@@ -210,8 +210,8 @@ fn total_connector_force_is_sum_of_forces_and_moments() {
     let model = moored_model("");
     let made = run(&model, (10.0, 0.5), &[], vec![]);
     let events = results::events(&made.history, None).unwrap();
-    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
-    let yaw = column(&places, "Location", "Yaw");
+    let positions = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
+    let yaw = column(&positions, "Location", "Yaw");
     let total = results::total_forces(&made, &[0], Magnitude::default(), &events).unwrap();
     let all = results::connector_forces(&made, &[0, 1, 2], Magnitude::default(), &events).unwrap();
     let each: Vec<_> = ["A", "B", "D"]
@@ -291,8 +291,8 @@ fn segment_damage_uses_upper_end_tension_and_scatter_adds_by_days() {
     let link = made.history.layout.links.iter().position(|l| l.name == "T").unwrap();
     let damages = results::line_damages(&made, &[link], &selection, &events).unwrap();
     let segments = &damages[0].1.segments;
-    let places = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
-    let (at, yaw) = (vectors(&places, "Location", ["X", "Y", "Z"]), column(&places, "Location", "Yaw"));
+    let positions = results::trajectory(&made, &[0], &MotionOptions::default(), &events).unwrap();
+    let (at, yaw) = (vectors(&positions, "Location", ["X", "Y", "Z"]), column(&positions, "Location", "Yaw"));
     let (anchor, own) = ends(&made.model, "T", "*B");
     let (mut top, mut joint) = (Vec::new(), Vec::new());
     for (at, yaw) in at.iter().zip(&yaw) {

@@ -136,14 +136,14 @@ fn raos_are_lagged_rotated_with_body_and_mirrored() {
     let now = motion_at(beam.as_ref(), 1.7);
     let swing = 1.5 * (w * 1.7).cos();
     assert!((now.pose.origin + Vector3::x() * swing).norm() < 1e-12, "{}", now.pose.origin);
-    let place =
+    let position =
         |roll: f64| Pose::from_place(&windlass_base::geometry::Place::new([0.0, 0.0, 0.0, roll, 0.0, PI / 2.0])).axes;
-    assert!((now.pose.axes - place(-(3.0 * swing).to_radians())).norm() < 1e-12);
+    assert!((now.pose.axes - position(-(3.0 * swing).to_radians())).norm() < 1e-12);
     // from the other side all of it is the other way
     let other = motion(&file, record, Some(&sea(&[(w, 1.5, PI, 0.0)], 0.0)));
     let now = motion_at(other.as_ref(), 1.7);
     assert!((now.pose.origin - Vector3::x() * swing).norm() < 1e-12);
-    assert!((now.pose.axes - place((3.0 * swing).to_radians())).norm() < 1e-12);
+    assert!((now.pose.axes - position((3.0 * swing).to_radians())).norm() < 1e-12);
 }
 
 #[test]
@@ -229,9 +229,9 @@ fn body_starts_at_first_row_of_motion_file() {
     let (model, errors, _) =
         session("-1,0,0,0,0,0,0\n0,3,4,-5,1,2,33\n5,0,0,0,0,0,0\n", "MEDIT\nPRESCRIBE B -FILE FILE.CSV\nEND");
     assert_eq!(errors, 0);
-    let place = model.bodies["B"].place;
-    assert_eq!(place.shift, [3.0, 4.0, -5.0]);
-    assert!((place.turn[2].to_degrees() - 33.0).abs() < 1e-12);
+    let position = model.bodies["B"].position;
+    assert_eq!(position.shift, [3.0, 4.0, -5.0]);
+    assert!((position.turn[2].to_degrees() - 33.0).abs() < 1e-12);
 }
 
 #[test]
@@ -273,13 +273,13 @@ fn body_with_prescribed_motion_is_fixed_in_equilibrium_until_freed() {
     let still = format!("{rig}PRESCRIBE B -SINUSOID X 1 10\nEND\n&INSTATE -LOCATE B 0.5 0 0\n&EQUI");
     let (model, errors, text) = session("", &still);
     assert_eq!(errors, 0, "{text}");
-    assert_eq!(model.bodies["B"].place.shift, [0.5, 0.0, 0.0]);
+    assert_eq!(model.bodies["B"].position.shift, [0.5, 0.0, 0.0]);
     let free = format!(
         "{rig}PRESCRIBE B -SINUSOID X 1 10\nPRESCRIBE B -FREE\n&DESCRIBE BODY B -IGNORE RX RY RZ\nEND\n&INSTATE -LOCATE B 0.5 0 0\n&EQUI"
     );
     let (model, errors, text) = session("", &free);
     assert_eq!(errors, 0, "{text}");
-    assert!(model.bodies["B"].place.shift[0].abs() < 1e-3);
+    assert!(model.bodies["B"].position.shift[0].abs() < 1e-3);
 }
 
 #[test]

@@ -119,8 +119,8 @@ fn coulomb_friction_reduces_every_swing_equally_and_stops_cart() {
          CONNECTOR S ~SPRING *C *G\nEND\n&INSTATE -LOCATE CART 2 0 0\n"
     ));
     let made = run(&model, settings(20.0, 0.002), vec![]);
-    let places = x(&made.history);
-    let turns: Vec<f64> = places
+    let positions = x(&made.history);
+    let turns: Vec<f64> = positions
         .windows(3)
         .filter(|w| (w[1] - w[0]) * (w[2] - w[1]) < 0.0 && (w[1] - w[0]).abs() > 1e-9)
         .map(|w| w[1].abs())
@@ -131,8 +131,8 @@ fn coulomb_friction_reduces_every_swing_equally_and_stops_cart() {
         // the weight comes upon the contact at the start and swings there: 1e-8 m; the turn lies between two steps
         assert!((turn - exact).abs() < 1e-3, "{n} {turn} {exact}");
     }
-    let last = places.last().unwrap();
-    assert!(last.abs() <= loss / 2.0 && (last - places[places.len() - 500]).abs() < 1e-6, "{last}");
+    let last = positions.last().unwrap();
+    assert!(last.abs() <= loss / 2.0 && (last - positions[positions.len() - 500]).abs() < 1e-6, "{last}");
 }
 
 #[test]
@@ -149,12 +149,12 @@ fn pendulum_period_matches_large_angle_closed_form() {
     let period = 4.0 * 1.685_750_354_8 * (10.0f64 / 9.80665).sqrt();
     let made = run(&model, settings(3.0 * period, 0.005), vec![]);
     let history = &made.history;
-    let places = x(history);
+    let positions = x(history);
     let times = history.times();
     // the body's moment of inertia about the pin is m (L^2 + 0.01): its period longer by 0.5e-4
-    let crossings: Vec<f64> = (1..places.len())
-        .filter(|i| places[i - 1] < 0.0 && places[*i] >= 0.0)
-        .map(|i| times[i - 1] - places[i - 1] * (times[i] - times[i - 1]) / (places[i] - places[i - 1]))
+    let crossings: Vec<f64> = (1..positions.len())
+        .filter(|i| positions[i - 1] < 0.0 && positions[*i] >= 0.0)
+        .map(|i| times[i - 1] - positions[i - 1] * (times[i] - times[i - 1]) / (positions[i] - positions[i - 1]))
         .collect();
     let found = crossings[1] - crossings[0];
     let exact = period * (1.0f64 + 1e-4).sqrt();

@@ -43,21 +43,21 @@ impl Deck {
     fn position_table(&self) -> Table {
         let kinds: &[&str] = if self.job.program == Program::Drift { &[" (S)", " (T)"] } else { &[""] };
         let (mut numbers, mut names) = (Vec::new(), Vec::new());
-        let mut places: [Vec<Option<f64>>; 6] = Default::default();
+        let mut positions: [Vec<Option<f64>>; 6] = Default::default();
         let mut cosines: [Vec<Option<f64>>; 3] = Default::default();
         for structure in &self.structures {
-            let place = self.start(structure);
+            let position = self.start(structure);
             let given = self.starts.iter().find(|start| start.structure == structure.number && start.velocity);
             let velocity = given.map_or([0.0; 6], |start| start.values);
-            let [_, _, _, rx, ry, rz] = place.map(f64::to_radians);
+            let [_, _, _, rx, ry, rz] = position.map(f64::to_radians);
             let turn = Rotation3::from_euler_angles(rx, ry, rz);
             for kind in kinds {
                 for row in 0..4 {
-                    let (first, values) = if row == 3 { ("VELOCITY", velocity) } else { ("POSITION", place) };
+                    let (first, values) = if row == 3 { ("VELOCITY", velocity) } else { ("POSITION", position) };
                     let headed = row == 0 || row == 3;
                     numbers.push(headed.then_some(structure.number));
                     names.push(if headed { format!("{first}{kind}") } else { String::new() });
-                    for (list, value) in places.iter_mut().zip(values) {
+                    for (list, value) in positions.iter_mut().zip(values) {
                         list.push(headed.then_some(value));
                     }
                     for (axis, list) in cosines.iter_mut().enumerate() {
@@ -70,7 +70,7 @@ impl Deck {
             Column::new("STRUCTURE", "NUMBER", Dim::None, WHOLE, numbers),
             Column::new("", "PARAMETER", Dim::None, Digits::Usual, names),
         ];
-        for ((index, name), values) in FREEDOMS.into_iter().enumerate().zip(places) {
+        for ((index, name), values) in FREEDOMS.into_iter().enumerate().zip(positions) {
             let group = if index < 3 { "TRANSLATIONS (FRA)" } else { "ROTATIONS (FRA)" };
             columns.push(Column::new(group, name, Dim::None, THREE_DECIMALS, values));
         }
@@ -119,7 +119,7 @@ impl Deck {
     }
 
     fn node_table(&self) -> Table {
-        let place = |printed: &PrintedNode| {
+        let position = |printed: &PrintedNode| {
             let structure = self.structure(printed.structure.value)?;
             self.node_position(structure, printed.node.value)
         };
@@ -128,21 +128,21 @@ impl Deck {
             Some([x, y, z])
         };
         let rows: Vec<_> =
-            self.printing.nodes.iter().map(|printed| (printed, place(printed), centre(printed))).collect();
+            self.printing.nodes.iter().map(|printed| (printed, position(printed), centre(printed))).collect();
         let axes = ["X", "Y", "Z"];
         Table::new("Position of User-Requested Nodes")
             .with_rows(&rows)
             .column("STRUCTURE", "NUMBER", Dim::None, WHOLE, |(printed, _, _)| printed.structure.value)
             .column("NODE", "NUMBER", Dim::None, WHOLE, |(printed, _, _)| printed.node.value)
             .text("", |_| "POSITION")
-            .columns("WITH RESPECT TO THE FIXED REFERENCE AXES", axes, Dim::None, THREE_DECIMALS, |(_, place, _)| {
-                place.map_or([None; 3], |p| p.map(Some))
+            .columns("WITH RESPECT TO THE FIXED REFERENCE AXES", axes, Dim::None, THREE_DECIMALS, |(_, position, _)| {
+                position.map_or([None; 3], |p| p.map(Some))
             })
-            .columns("RELATIVE TO THE CENTRE OF GRAVITY", axes, Dim::None, THREE_DECIMALS, |(_, place, centre)| match (
-                place, centre,
-            ) {
-                (Some(p), Some(c)) => [0, 1, 2].map(|i| Some(p[i] - c[i])),
-                _ => [None; 3],
+            .columns("RELATIVE TO THE CENTRE OF GRAVITY", axes, Dim::None, THREE_DECIMALS, |(_, position, centre)| {
+                match (position, centre) {
+                    (Some(p), Some(c)) => [0, 1, 2].map(|i| Some(p[i] - c[i])),
+                    _ => [None; 3],
+                }
             })
             .build()
     }

@@ -22,7 +22,7 @@ fn axes(deck: &Deck, structure: i64) -> Rotation3<f64> {
 }
 
 /// Where a node of a structure, or of the ground, is at the start.
-fn place(deck: &Deck, structure: i64, node: i64) -> Option<Vector3<f64>> {
+fn position(deck: &Deck, structure: i64, node: i64) -> Option<Vector3<f64>> {
     match deck.structure(structure) {
         Some(found) => deck.node_position(found, node).map(Vector3::from),
         None => deck.nodes.get(&node).map(|node| Vector3::from(node.position)),
@@ -31,7 +31,7 @@ fn place(deck: &Deck, structure: i64, node: i64) -> Option<Vector3<f64>> {
 
 /// Unit vector between two nodes of a structure at the start, global axes.
 fn direction(deck: &Deck, structure: i64, from: i64, to: i64) -> Option<Vector3<f64>> {
-    let along = place(deck, structure, to)? - place(deck, structure, from)?;
+    let along = position(deck, structure, to)? - position(deck, structure, from)?;
     along.try_normalize(JOINT_GAP_M)
 }
 
@@ -48,7 +48,7 @@ fn articulation(deck: &Deck, name: &str, joint: &Articulation, out: &mut Script)
         [ground, structure] if ground.structure.value <= 0 => [structure, ground],
         sides => sides,
     };
-    let at = |side: &JointSide| place(deck, side.structure.value, side.node.value);
+    let at = |side: &JointSide| position(deck, side.structure.value, side.node.value);
     let (Some(one), Some(other)) = (at(&first), at(&second)) else { return };
     let gap = out.scale.length((other - one).norm());
     if gap > JOINT_GAP_M {
@@ -108,7 +108,7 @@ pub(super) fn fenders(deck: &Deck, out: &mut Script) {
 
 fn write_fender(deck: &Deck, name: &str, fender: &FenderCard, out: &mut Script) {
     let [base, face] = fender.sides;
-    let at = |side: &FenderSide| place(deck, side.structure.value, side.node.value);
+    let at = |side: &FenderSide| position(deck, side.structure.value, side.node.value);
     let (Some(from), Some(to)) = (at(&base), at(&face)) else { return };
     let normal = |side: &FenderSide| direction(deck, side.structure.value, side.node.value, side.direction.value);
     let Some(normal) = normal(&face).or_else(|| normal(&base)) else {

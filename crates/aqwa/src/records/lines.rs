@@ -37,11 +37,11 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
                         let variant = (property, depth);
                         let others = written.iter().filter(|(other, _)| *other == property).count();
                         let known = written.iter().position(|other| *other == variant);
-                        let place =
+                        let position =
                             known.map_or(others, |at| written.iter().take(at).filter(|w| w.0 == property).count());
-                        let name = match place {
+                        let name = match position {
                             0 => format!("COMP{}", property + 1),
-                            _ => format!("COMP{}_{}", property + 1, place + 1),
+                            _ => format!("COMP{}_{}", property + 1, position + 1),
                         };
                         if known.is_none() {
                             written.push(variant);
@@ -88,7 +88,7 @@ pub(super) fn lines(deck: &Deck, out: &mut Script) {
         let Some(class) = class else { continue };
         let fairlead = point(first.0, first.1);
         let other = match anchor {
-            Some((place, _)) if deck.mooring.composite(line).is_some() => format!("-ANCHOR {}", numbers(place)),
+            Some((position, _)) if deck.mooring.composite(line).is_some() => format!("-ANCHOR {}", numbers(position)),
             _ => point(second.0, second.1),
         };
         out.card(format!("deck 14, {}", card(&line.kind)), line.span);
@@ -296,8 +296,8 @@ fn over_pulley(
     pulley: Pulley,
     out: &mut Script,
 ) -> Option<String> {
-    let place = |node: i64| deck.nodes.get(&node).map(|node| node.position);
-    let (from, to) = (place(pulley.ends.node1.value)?, place(pulley.ends.node2.value)?);
+    let position = |node: i64| deck.nodes.get(&node).map(|node| node.position);
+    let (from, to) = (position(pulley.ends.node1.value)?, position(pulley.ends.node2.value)?);
     let behind = from.iter().zip(to).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
     let name = format!("L{number_of}");
     let [length, behind] = [length, behind].map(|x| out.scale.length(x));

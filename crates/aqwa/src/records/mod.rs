@@ -60,8 +60,8 @@ impl WrittenRecords {
     pub fn split(mut self) -> [WrittenRecords; 2] {
         let text = self.text.split_off(self.motion.min(self.text.len()));
         let from = self.text.len();
-        let place = self.origins.partition_point(|(at, _)| *at < from);
-        let origins = self.origins.split_off(place).into_iter().map(|(at, origin)| (at - from, origin)).collect();
+        let position = self.origins.partition_point(|(at, _)| *at < from);
+        let origins = self.origins.split_off(position).into_iter().map(|(at, origin)| (at - from, origin)).collect();
         [self, WrittenRecords { text, origins, motion: 0 }]
     }
 

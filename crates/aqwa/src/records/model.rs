@@ -41,9 +41,9 @@ pub(super) fn ground(deck: &Deck, out: &mut Script) {
     nodes.dedup();
     for node in nodes {
         if let Some(found) = deck.nodes.get(&node) {
-            let place = found.position.map(|x| out.scale.length(x));
+            let position = found.position.map(|x| out.scale.length(x));
             out.card("deck 1", found.span);
-            out.record(format!("{} {}", point(0, node), numbers(place)));
+            out.record(format!("{} {}", point(0, node), numbers(position)));
         }
     }
 }
@@ -87,12 +87,12 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     out.record(format!("*{name}_CG 0 0 0"));
     for node in nodes(deck, of) {
         if let Some(found) = deck.nodes.get(&node) {
-            let place = [0, 1, 2].map(|i| {
+            let position = [0, 1, 2].map(|i| {
                 let [at, centre] = [found.position[i], mass.centre[i]].map(|x| out.scale.length(x));
                 difference(at, centre)
             });
             out.card("deck 1", found.span);
-            out.record(format!("{} {}", point(of.number, node), numbers(place)));
+            out.record(format!("{} {}", point(of.number, node), numbers(position)));
         }
     }
     let massive = of.elements.iter().find(|element| element.shape == ElementShape::PointMass);

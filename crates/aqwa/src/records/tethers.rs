@@ -69,8 +69,8 @@ fn class(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
 
 /// Length of an element (m).
 fn length(deck: &Deck, element: &TelmCard, out: &Script) -> Option<f64> {
-    let place = |node: i64| deck.nodes.get(&node).map(|node| node.position.map(|x| out.scale.length(x)));
-    let (from, to) = (place(element.node1.value)?, place(element.node2.value)?);
+    let position = |node: i64| deck.nodes.get(&node).map(|node| node.position.map(|x| out.scale.length(x)));
+    let (from, to) = (position(element.node1.value)?, position(element.node2.value)?);
     let along = [0, 1, 2].map(|i| difference(to[i], from[i]));
     Some(match along.iter().filter(|x| **x != 0.0).count() {
         // along an axis the digits of the cards are the length
@@ -110,8 +110,8 @@ fn connector(deck: &Deck, index: usize, tether: &Tether, out: &mut Script) {
         text.push_str(&of_installed(description, out));
     }
     if let Some(node) = deck.nodes.get(&tether.node.value) {
-        let place = node.position.map(|x| out.scale.length(x));
-        text.push_str(&format!(" \\\n  -GIVEN {}", numbers(place)));
+        let position = node.position.map(|x| out.scale.length(x));
+        text.push_str(&format!(" \\\n  -GIVEN {}", numbers(position)));
     }
     out.record(text);
 }

@@ -348,10 +348,10 @@ fn refused_matrices_point_at_their_own_cards() {
             drift.lines().find(|line| line.contains(keyword)).unwrap(),
         );
     }
-    let place = "    07    WFS1\n    07LSTF         3                         1.0E6\n    07BFEQ             9.81E7\n    07ZCGE                 0.0\n\
+    let position = "    07    WFS1\n    07LSTF         3                         1.0E6\n    07BFEQ             9.81E7\n    07ZCGE                 0.0\n\
                  \x20END07SPOS                 1.0\n";
     says(
-        &DeckJob { coefficients: place, ..MOORED },
+        &DeckJob { coefficients: position, ..MOORED },
         Severity::Error,
         "deck 7, SPOS: an X, Y or a rotation of the stiffness is not read into the model",
         " END07SPOS",

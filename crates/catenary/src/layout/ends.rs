@@ -39,6 +39,10 @@ impl LineLayout<'_> {
 }
 
 /// The line with its fairlead `x` (m) beside the anchor, at elevation `z` (m).
+///
+/// # Errors
+/// A fairlead below a bottom that carries the line, a line without an equilibrium there, or a search that ends beside the
+/// anchor.
 pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
     let mut layout = LineLayout::new(line, x, z);
     if let Some(by) = layout.fairlead_penetration(x, z) {
@@ -49,7 +53,7 @@ pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Re
     let begin = match last {
         Some(last) if last.force > least && last.stiffness[0][0].is_finite() => {
             let [[xx, xz], _] = last.stiffness;
-            let risen = last.places.first().map_or(0.0, |p| z - p.1);
+            let risen = last.positions.first().map_or(0.0, |p| z - p.1);
             let predicted = last.force + xx * (x - last.x) + if xz.is_finite() { xz * risen } else { 0.0 };
             predicted.max(0.1 * last.force)
         }
@@ -165,7 +169,7 @@ fn heap_in_hollow(layout: &LineLayout, [x, z]: [f64; 2], force: f64, sump: f64) 
     let mut near: Option<(f64, LaidLine)> = None;
     let lost = |left| LineError::NotConverged { force, residual: left, iterations: MAX_SEARCH_STEPS };
     rising_root(force, 0.0, |h| match layout.lay(&layout.top(Var::parameter(h, FORCE_PARAMETER, 1.0), x, z, None)) {
-        Ok(laid) if laid.heap.is_some_and(|(place, _)| place == Heap::Hollow(sump)) => {
+        Ok(laid) if laid.heap.is_some_and(|(position, _)| position == Heap::Hollow(sump)) => {
             let found = FunctionPoint { value: -laid.short.value, slope: -laid.short.by[FORCE_PARAMETER] };
             if near.as_ref().is_none_or(|(_, n)| laid.short.value < n.short.value) {
                 near = Some((h, laid));
@@ -212,6 +216,9 @@ fn beyond_hollow(
 }
 
 /// The line with a horizontal force (N) at its fairlead, at elevation `z` (m).
+///
+/// # Errors
+/// A force under which the line has no equilibrium, or a search that ends beside it.
 pub fn at_force(line: &Line, force: f64, z: f64) -> Result<LineState, LineError> {
     let layout = LineLayout::new(line, line.length(), z);
     let top = |at: f64| layout.top(Var::parameter(force, FORCE_PARAMETER, 1.0), at, z, None);

@@ -272,6 +272,9 @@ impl<'a> LineLayout<'a> {
     }
 
     /// Lays the line.
+    ///
+    /// # Errors
+    /// A span that does not land, or joints that go on sinking in turn.
     pub fn lay(&self, top: &Top) -> Result<LaidLine, LineError> {
         let mut sunk = vec![false; self.pulls.len()];
         // a joint that sinks may take one before it along

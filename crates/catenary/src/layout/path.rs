@@ -150,8 +150,8 @@ impl LineLayout<'_> {
         if let PathEnd::Hollow { at, sump } = path.end {
             let rest: f64 = self.elements.iter().skip(at.element).map(LinePiece::length).sum();
             laid.heap = Some((Heap::Hollow(sump), rest - at.s.value));
-            if let Some((place, length)) = hollow
-                && sump == place
+            if let Some((position, length)) = hollow
+                && sump == position
             {
                 let vertex = self.bottom.face(sump);
                 let (u, z) = self.bottom.vertex(vertex);

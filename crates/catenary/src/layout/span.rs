@@ -83,6 +83,9 @@ impl LineLayout<'_> {
     }
 
     /// Finds the span: its beginning and where it lands.
+    ///
+    /// # Errors
+    /// A span whose beginning is not found.
     pub fn next_span(
         &self,
         origin: &SpanStart,
@@ -324,8 +327,8 @@ impl LineLayout<'_> {
         [held, passed]: [bool; 2],
         laid: &mut LaidLine,
     ) {
-        if let Some(place) = laid.joints.get_mut(joint) {
-            *place = JointAt { u: at.u.value, z: at.z.value, lift, reaction, held, passed };
+        if let Some(position) = laid.joints.get_mut(joint) {
+            *position = JointAt { u: at.u.value, z: at.z.value, lift, reaction, held, passed };
         }
     }
 }

@@ -16,6 +16,9 @@ const MAX_SHORT_ROUNDINGS: f64 = 64.0;
 
 impl LineLayout<'_> {
     /// The state of a line laid from a fairlead at `x` beside the anchor and elevation `z`.
+    ///
+    /// # Errors
+    /// A line that was laid without a piece, or that ends beside its anchor.
     pub fn state(&self, laid: LaidLine, [x, z]: [f64; 2], slack: bool) -> Result<LineState, LineError> {
         let [by_first, by_x, by_z, _] = laid.short.by;
         let Some(first) = laid.stretches.first().copied() else { return Err(LineError::Empty) };
@@ -53,8 +56,8 @@ impl LineLayout<'_> {
         if laid.left > 1e-12 * (self.length + x.abs()) + 64.0 * self.fine {
             return Err(LineError::NotConverged { force: first.h, residual: laid.left, iterations: laid.iterations });
         }
-        let place = |u: f64, z: f64| (x - u, z);
-        let mut places: Vec<(f64, f64)> = vec![(0.0, z)];
+        let position = |u: f64, z: f64| (x - u, z);
+        let mut positions: Vec<(f64, f64)> = vec![(0.0, z)];
         let mut segments = Vec::new();
         let (mut grounded, mut grounded_stretched, mut touchdown) = (0.0, 0.0, None);
         let mut below_bottom = Vec::new();
@@ -68,12 +71,12 @@ impl LineLayout<'_> {
             let parts = &laid.stretches[from..at];
             let (Some(head), Some(tail)) = (parts.first(), parts.last()) else { return Err(LineError::Empty) };
             let [u, z, low_h, low_v] = tail.low;
-            places.push(place(u, z));
+            positions.push(position(u, z));
             let LinePiece::Length { segment, sees_bottom, .. } = element else { continue };
             let number = segments.len() + 1;
             let mut on_bottom = 0.0;
             for part in parts.iter().filter(|p| p.manner != SupportMode::Hangs) {
-                touchdown = touchdown.or(Some(place(part.u, part.z)));
+                touchdown = touchdown.or(Some(position(part.u, part.z)));
                 on_bottom += part.to - part.from;
                 let [u, z, ..] = part.low;
                 grounded_stretched +=
@@ -102,7 +105,7 @@ impl LineLayout<'_> {
         }
         let skip = self.line.first_joint();
         let joints = self.line.joints.iter().zip(laid.joints.iter().skip(skip)).map(|(joint, at)| {
-            let (x, z) = place(at.u, at.z);
+            let (x, z) = position(at.u, at.z);
             let buoy = matches!(joint, Joint::SpringBuoy { .. } | Joint::Buoy { .. }).then_some(
                 match (at.held, at.passed || at.reaction > 0.0) {
                     (true, _) => Buoy::Held,
@@ -138,7 +141,7 @@ impl LineLayout<'_> {
             iterations: laid.iterations,
             residual,
             unbalance: laid.left * xx.abs(),
-            places,
+            positions,
             rested: Default::default(),
             laid: Some(Box::new(laid)),
         };

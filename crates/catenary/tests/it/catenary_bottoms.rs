@@ -152,11 +152,11 @@ fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
         (0.2, TIP, [700.0, 765.0], [411304.681303, 453905.679901, 192053.080969, 57615.924291, 313.057638499]),
         (0.2, BRIDGE, [900.0, 976.0], [336315.556233, 457296.219797, 148784.226590, 29756.845318, 422.246514812]),
     ];
-    for (friction, places, [x, length], want) in cases {
-        let label = format!("{friction} {places:?}");
-        let (_, anchor) = places[0];
+    for (friction, positions, [x, length], want) in cases {
+        let label = format!("{friction} {positions:?}");
+        let (_, anchor) = positions[0];
         let segment = Segment { length, weight: 1200.0, ea: 6e8 };
-        let line = Line::new(vec![segment], vec![], anchor, 0.0).unwrap().over_profile(places, friction).unwrap();
+        let line = Line::new(vec![segment], vec![], anchor, 0.0).unwrap().over_profile(positions, friction).unwrap();
         let state = line.at_distance(x, -10.0).unwrap_or_else(|e| panic!("{label}: {e}"));
         let got = [state.force, state.top_vertical, state.anchor_horizontal, state.anchor_vertical, state.grounded];
         for (got, want) in got.into_iter().zip(want) {
@@ -186,9 +186,9 @@ fn lines_over_ridges_and_hollows_match_hand_solved_contacts() {
 #[test]
 fn excess_length_heaps_in_hollow_without_friction() {
     // it comes down 1 in 10 to the hollow with T = 0 there, and hangs on the anchor by w times the height
-    let places = [(0.0, -200.0), (400.0, -220.0), (1000.0, -160.0)];
+    let positions = [(0.0, -200.0), (400.0, -220.0), (1000.0, -160.0)];
     let segment = Segment { length: 1100.0, weight: 1200.0, ea: 1e15 };
-    let line = Line::new(vec![segment], vec![], -200.0, 0.0).unwrap().over_profile(&places, 0.0).unwrap();
+    let line = Line::new(vec![segment], vec![], -200.0, 0.0).unwrap().over_profile(&positions, 0.0).unwrap();
     let state = line.at_distance(700.0, -10.0).unwrap();
     // on a frictionless bottom T - w z is the same all along: zero tension at the hollow, w times its depth below the anchor
     close(state.top_tension, 1200.0 * (220.0 - 10.0), 1e-3, "T");
@@ -268,11 +268,11 @@ fn distance_for_a_force_is_found_on_slope_with_two_weights() {
 fn pendant_longer_than_depth_at_anchor_holds_over_deeper_water() {
     // 120 m of pendant, 100 m of water at the anchor and 200 m from 100 m beyond it on: two catenaries of 500 and 300 N/m meet at
     // a joint 120 m below the surface, all hanging free. scipy: the buoy's lift closes V, H closes the distance
-    let places = [(0.0, -100.0), (100.0, -200.0), (1000.0, -200.0)];
+    let positions = [(0.0, -100.0), (100.0, -200.0), (1000.0, -200.0)];
     let part = |length, weight| Segment { length, weight, ea: 5e8 };
     let buoy = Joint::SpringBuoy { capacity: 1e6, depth: 120.0 };
     let line = Line::new(vec![part(300.0, 500.0), part(300.0, 300.0)], vec![buoy], -100.0, 0.0).unwrap();
-    let state = line.over_profile(&places, 0.0).unwrap().at_distance(560.0, -10.0).unwrap();
+    let state = line.over_profile(&positions, 0.0).unwrap().at_distance(560.0, -10.0).unwrap();
     close(state.joints[0].z, -120.0, 1e-6, "held");
     close(state.force, 125_969.442838, 1e-3, "H");
     close(state.joints[0].lift, 54_332.568165, 1e-3, "buoy");

@@ -126,7 +126,7 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Line
     const STEPS: usize = 20_000;
     let (mut x, mut z) = (0.0, 0.0);
     let force = 1e-7 * (h + state.top_tension + line.segments().iter().map(|s| s.weight * s.length).sum::<f64>());
-    let place = 2e-4 * line.segments().iter().map(|s| s.length * (1.0 + (h + 1e6) / s.ea)).sum::<f64>();
+    let position = 2e-4 * line.segments().iter().map(|s| s.length * (1.0 + (h + 1e6) / s.ea)).sum::<f64>();
     for (index, (s, at)) in line.segments().iter().zip(&state.segments).enumerate() {
         let hanging = s.length - at.grounded;
         if (at.top_vertical - s.weight * hanging - at.bottom_vertical).abs() > force {
@@ -145,11 +145,11 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Line
         }
         x += at.grounded * (1.0 + h / s.ea);
         let (Some(joint), Some(found)) = (joints.get(index), state.joints.get(index)) else { continue };
-        if (found.x - x).abs() > place || (found.z - z).abs() > place {
+        if (found.x - x).abs() > position || (found.z - z).abs() > position {
             return Some(format!("joint {} at {x} {z}", index + 1));
         }
         let jump = state.segments[index + 1].top_vertical - at.bottom_vertical;
-        let on_bottom = (z + depth).abs() < place;
+        let on_bottom = (z + depth).abs() < position;
         let carried = if matches!(joint, Joint::Weight(_)) { 0.0 } else { found.reaction };
         if (jump - found.lift - carried).abs() > force || found.reaction < 0.0 || (found.reaction > 0.0 && !on_bottom) {
             return Some(format!("joint {} is off balance by {}", index + 1, jump - found.lift - carried));
@@ -161,8 +161,8 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Line
             Joint::SpringBuoy { capacity, depth } => {
                 found.lift >= -force
                     && found.lift <= capacity + force
-                    && (found.lift <= force || found.z <= -depth + place)
-                    && (found.lift >= capacity - force || found.z >= -depth - place)
+                    && (found.lift <= force || found.z <= -depth + position)
+                    && (found.lift >= capacity - force || found.z >= -depth - position)
             }
             Joint::Buoy { .. } => false,
         };
@@ -170,7 +170,7 @@ fn contradiction(line: &Line, joints: &[Joint], depth: f64, h: f64, state: &Line
             return Some(format!("state of joint {}", index + 1));
         }
     }
-    let ends = (x - state.x).abs() < place && (z + depth).abs() < place;
+    let ends = (x - state.x).abs() < position && (z + depth).abs() < position;
     (!ends).then(|| format!("the anchor at {x} {z}"))
 }
 

@@ -18,12 +18,12 @@ struct PlacedLine {
 fn cases() -> Vec<PlacedLine> {
     let mut reader = csv::Reader::from_path("../../tests/data/catenary_2000.csv").unwrap();
     let heads = reader.headers().unwrap().clone();
-    let place = |name: &str| heads.iter().position(|h| h == name).unwrap();
+    let position = |name: &str| heads.iter().position(|h| h == name).unwrap();
     reader
         .records()
         .map(|r| {
             let r = r.unwrap();
-            let number = |name: &str| r[place(name)].parse::<f64>().unwrap();
+            let number = |name: &str| r[position(name)].parse::<f64>().unwrap();
             PlacedLine {
                 x: number("x_m"),
                 z: number("z_m"),
@@ -31,7 +31,7 @@ fn cases() -> Vec<PlacedLine> {
                 friction: number("friction"),
                 suspended: number("suspended") == 1.0,
                 want: ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N"].map(number),
-                regime: r[place("regime")].to_string(),
+                regime: r[position("regime")].to_string(),
             }
         })
         .collect()
@@ -95,7 +95,7 @@ fn contradiction(
     let weight: f64 = line.segments().iter().map(|s| s.weight.abs() * s.length).sum();
     let force = 1e-7 * (state.top_tension + weight);
     let stretched: f64 = line.segments().iter().map(|s| s.length * (1.0 + state.top_tension / s.ea)).sum();
-    let place = 2e-3 * (stretched + fairlead.abs() + floor.elevation.abs());
+    let position = 2e-3 * (stretched + fairlead.abs() + floor.elevation.abs());
     // what lies in a heap, of which a solution says where it is and how long
     let mut heap = match state.heap {
         Some((Heap::Touchdown, length)) => length,
@@ -123,7 +123,7 @@ fn contradiction(
                 *at += h * stretch;
                 *z -= middle * stretch;
                 *v -= s.weight * ds;
-                if *z < bottom(*at) - place {
+                if *z < bottom(*at) - position {
                     return Some(bottom(*at) - *z);
                 }
             }
@@ -133,7 +133,7 @@ fn contradiction(
             return wrong(format!("segment {} is {by} m below the bottom", index + 1));
         }
         if rests {
-            if (z - bottom(at)).abs() > place || (v * cos - h * sin).abs() > force {
+            if (z - bottom(at)).abs() > position || (v * cos - h * sin).abs() > force {
                 return wrong(format!("segment {} touches down at {} above the bottom", index + 1, z - bottom(at)));
             }
             // Coulomb friction toward the fairlead and the weight along the slope, down to nothing
@@ -155,7 +155,7 @@ fn contradiction(
             at += length * cos;
             z -= length * sin;
             if slides && !slid && left == 0.0 && under < grounded {
-                if (at - x).abs() > place {
+                if (at - x).abs() > position {
                     return wrong(format!("slides from {at}, not the anchor"));
                 }
                 slid = true;
@@ -166,10 +166,10 @@ fn contradiction(
             }
         }
         let (Some(joint), Some(found)) = (joints.get(index), state.joints.get(index)) else { continue };
-        if (found.x - at).abs() > place || (found.z - z).abs() > place {
+        if (found.x - at).abs() > position || (found.z - z).abs() > position {
             return wrong(format!("joint {} at {at} {z}, not as {found:?}", index + 1));
         }
-        let on_bottom = (z - bottom(at)).abs() < place;
+        let on_bottom = (z - bottom(at)).abs() < position;
         let lift = match joint {
             Joint::Free => 0.0,
             Joint::Weight(w) => -w,
@@ -191,7 +191,7 @@ fn contradiction(
         let held = heaped && heap <= fine && rests && found.reaction > 0.0 && (0.0..pushed.0 + force).contains(&next.0);
         (h, v) = if held { next } else { pushed };
     }
-    if (at - x).abs() > place || (z - anchor).abs() > place {
+    if (at - x).abs() > position || (z - anchor).abs() > position {
         return wrong(format!("the anchor at {at} {z}, not {x} {anchor}: {state:?}"));
     }
     if (h - state.anchor_horizontal).abs() > force || (v - state.anchor_vertical).abs() > force {

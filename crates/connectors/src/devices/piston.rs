@@ -36,13 +36,13 @@ fn check(given: &Given) -> Outcome<()> {
     {
         return Err(Diagnostic::error(
             "the nominal position LD of -PISTON lies beyond its stroke LT",
-            given.place(NOMINAL),
+            given.position(NOMINAL),
         ));
     }
     match (given.choice(const { o::PISTON.choice("TYPE") }), given.number(MAX_TENSION), given.number(MIN_TENSION)) {
         (Some(o::PistonKind::MinMax), _, None) => Err(Diagnostic::error("-PISTON MINMAX needs TMIN", given.span)),
         (_, Some(most), Some(least)) if least >= most => {
-            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.place(MIN_TENSION)))
+            Err(Diagnostic::error("TMIN of -PISTON must be smaller than TMAX", given.position(MIN_TENSION)))
         }
         _ => Ok(()),
     }

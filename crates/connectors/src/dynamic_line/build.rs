@@ -105,7 +105,7 @@ fn end_directions(
     let chord = b.origin - a.origin;
     let across = Vector3::new(chord.x, chord.y, 0.0).try_normalize(1e-9).unwrap_or_else(Vector3::x);
     let mut made = [None, None];
-    for ((place, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
+    for ((position, hold), pose) in made.iter_mut().zip(&description.holds).zip([a, b]) {
         let Some(hold) = hold else { continue };
         let direction = match hold.declination {
             Some(angle) => across * angle.sin() - Vector3::z() * angle.cos(),
@@ -113,7 +113,7 @@ fn end_directions(
                 ClassError::new("the two ends are at one place: an end that is held has no direction there")
             })?,
         };
-        *place = Some((pose.axes.transpose() * direction, hold.stiffness));
+        *position = Some((pose.axes.transpose() * direction, hold.stiffness));
     }
     Ok(made)
 }

@@ -110,11 +110,11 @@ impl DynamicLine {
     fn on_holders(
         &self,
         forces: RodEndForces,
-        places: &[Vector3<f64>; 2],
+        positions: &[Vector3<f64>; 2],
         environment: &LineEnvironment,
     ) -> RodEndForces {
         let mut made = forces;
-        let (Some((bottom, _)), false, [_, anchor]) = (&environment.bottom, self.base.moving_ends[1], places) else {
+        let (Some((bottom, _)), false, [_, anchor]) = (&environment.bottom, self.base.moving_ends[1], positions) else {
             return made;
         };
         let (height, [x, y]) = bottom.height(anchor.x, anchor.y);
@@ -148,12 +148,12 @@ impl DynamicLine {
             cache.rod = self.base.rod.clone();
         }
         cache.fit();
-        let places = self.end_positions(at.ends)?;
+        let positions = self.end_positions(at.ends)?;
         let RodCache { rod, solver, rest, flows, .. } = cache;
         self.with_environment(at, true, 0.0, flows, |environment| {
             if let Some((bottom, _)) = &environment.bottom.filter(|_| self.base.laid.is_none()) {
-                for (place, name) in places.iter().zip(["first", "second"]) {
-                    let below = bottom.height(place.x, place.y).0 - place.z;
+                for (position, name) in positions.iter().zip(["first", "second"]) {
+                    let below = bottom.height(position.x, position.y).0 - position.z;
                     if below > MAX_END_PENETRATION_M {
                         let text = format!("its {name} end lies {{}} below the bottom");
                         return Err(ClassError::with_values(text, &[(below, Dim::Length)])
@@ -168,7 +168,7 @@ impl DynamicLine {
             let (state, forces) = match beside {
                 Some(found) if !solver.has_slid_without_friction() => found,
                 beside => match (
-                    self.static_shape_from_catenary(rod, solver, places, environment, (at.surroundings, ends)),
+                    self.static_shape_from_catenary(rod, solver, positions, environment, (at.surroundings, ends)),
                     beside,
                 ) {
                     (Err(_), Some((mut state, _))) => {
@@ -228,7 +228,7 @@ impl DynamicLine {
         cache: &mut RodCache,
         out: &mut ConnectorResponse,
     ) -> Result<(), ClassError> {
-        let (ends, places) = (self.end_conditions(at.ends, false)?, self.end_positions(at.ends)?);
+        let (ends, positions) = (self.end_conditions(at.ends, false)?, self.end_positions(at.ends)?);
         if !cache.has_start(committed) {
             cache.forget_start();
             if let Some(rod) = self.rod_with_mesh(kept, &cache.rod)? {
@@ -261,7 +261,7 @@ impl DynamicLine {
                     )?;
                 } else {
                     let tangent = solver.end_tangent_of_sides(rod, environment, self.base.moving_ends);
-                    on_ends(out, &self.on_holders(forces, &places, environment), tangent, true)?;
+                    on_ends(out, &self.on_holders(forces, &positions, environment), tangent, true)?;
                 }
                 Ok::<_, ClassError>(forces)
             } else {
@@ -280,7 +280,7 @@ impl DynamicLine {
                 for (side, mass) in solver.end_masses().iter().enumerate() {
                     tangent.acceleration.fixed_view_mut::<3, 3>(6 * side, 6 * side).copy_from(&-mass);
                 }
-                on_ends(out, &self.on_holders(forces, &places, environment), Some(&tangent), true)?;
+                on_ends(out, &self.on_holders(forces, &positions, environment), Some(&tangent), true)?;
                 Ok(forces)
             }
         })?;
@@ -297,7 +297,7 @@ impl DynamicLine {
         });
         let end = if dt > 0.0 { solver.end() } else { state };
         let paid = match (&self.base.laid, end.node_position(0)) {
-            (Some(laid), Some(place)) if dt > 0.0 => laid.payout(at.ends, &place, kept.paid),
+            (Some(laid), Some(position)) if dt > 0.0 => laid.payout(at.ends, &position, kept.paid),
             _ => kept.paid,
         };
         self.layout.write((rod, &self.base.bands), (end, paid), trial)?;
@@ -354,7 +354,7 @@ impl ConnectorElement for DynamicLine {
         if let (Some(step), Some(kept)) = (at.step, &kept) {
             return self.step(at, (step.time, step.dt), (committed, kept), trial, cache, out);
         }
-        let (found, places) = (self.find_rest(at, cache)?, self.end_positions(at.ends)?);
+        let (found, positions) = (self.find_rest(at, cache)?, self.end_positions(at.ends)?);
         let RodCache { rod, solver, flows, .. } = &mut *cache;
         self.with_environment(at, true, 0.0, flows, |environment| match self.base.laid {
             Some(_) => {
@@ -362,7 +362,7 @@ impl ConnectorElement for DynamicLine {
                 on_supports(out, &loads, solver.support_tangent(rod, environment).as_ref())
             }
             None => {
-                let forces = self.on_holders(found.forces, &places, environment);
+                let forces = self.on_holders(found.forces, &positions, environment);
                 on_ends(out, &forces, solver.end_tangent(rod, environment), false)
             }
         })?;

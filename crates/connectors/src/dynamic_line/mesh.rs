@@ -130,13 +130,13 @@ impl Bands {
     /// first end leaves the others where they are.
     pub fn lay(&self, mesh: &mut [(f64, f64, usize)]) {
         let (mut part, mut behind) = (usize::MAX, 0.0);
-        for (rest, _, place) in mesh.iter_mut().rev() {
-            if *place != part {
-                (part, behind) = (*place, 0.0);
+        for (rest, _, position) in mesh.iter_mut().rev() {
+            if *position != part {
+                (part, behind) = (*position, 0.0);
             }
             let Some(EqualLengths { from, count, long }) = self.each.get(part) else { continue };
             let back = ((behind + 0.5 * *rest) / long * *count as f64) as usize;
-            *place = from + count.saturating_sub(1 + back);
+            *position = from + count.saturating_sub(1 + back);
             behind += *rest;
         }
     }

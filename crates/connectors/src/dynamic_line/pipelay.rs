@@ -281,10 +281,10 @@ fn find_supported_parts(layout: &PipeLayout, course: &PipePath) -> Result<Vec<Su
 fn direction_through_support(
     node: &Pose,
     x: Option<&Vector3<f64>>,
-    place: &Vector3<f64>,
+    position: &Vector3<f64>,
 ) -> Result<Vector3<f64>, ClassError> {
     let x = x.copied().unwrap_or_else(Vector3::x);
-    let way = (place - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&(node.axes * x)));
+    let way = (position - node.origin).try_normalize(1e-9).map_or(0.0, |way| way.dot(&(node.axes * x)));
     if way.abs() < MIN_SUPPORT_COSINE {
         let error = ClassError::new("a pipe runs along the X axes of its supports, and these lie across it");
         return Err(error.help("-EULER of the CONNECTOR turns the axes of a roller"));

@@ -303,7 +303,7 @@ fn law(args: &Args, ea: f64) -> Outcome<TensionLaw> {
                 if points.last().is_some_and(|(last, pull)| e <= *last || t <= *pull) {
                     return Err(Diagnostic::error(
                         "tension and strain must both grow from point to point",
-                        pair.place(strain),
+                        pair.position(strain),
                     )
                     .label("not beyond the point before, or zero"));
                 }
@@ -355,17 +355,17 @@ pub fn read_end_fixities(clamps: &[Given], ends: [&Flexure; 2]) -> Outcome<[Opti
                 value.span,
             ));
         }
-        for (((place, name), bends), held) in made.iter_mut().zip(["first", "second"]).zip(bends).zip(held) {
+        for (((position, name), bends), held) in made.iter_mut().zip(["first", "second"]).zip(bends).zip(held) {
             if held {
                 if !bends {
                     let text = format!("nothing holds the {name} end in its direction: its segment does not bend");
                     return Err(Diagnostic::error(text, given.span).help("-EI above zero, or no -CLAMP"));
                 }
-                if place.is_some() {
+                if position.is_some() {
                     let text = format!("the {name} end is held twice");
                     return Err(Diagnostic::error(text, given.span));
                 }
-                *place = Some(hold);
+                *position = Some(hold);
             }
         }
     }

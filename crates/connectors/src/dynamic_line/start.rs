@@ -46,7 +46,7 @@ pub(super) fn bow_aside(points: &mut [Vector3<f64>], [from, to]: [Vector3<f64>; 
 /// The plane through that of two ends that is on a bottom, the second if both are, with the mean slope from there to half way to the other,
 /// and level across; with it whether it is the first. None where neither is.
 pub(super) fn plane([first, second]: [Vector3<f64>; 2], bottom: &dyn SeabedShape) -> Option<(PlaneBottom, bool)> {
-    let height = |place: Vector3<f64>| bottom.height(place.x, place.y).0;
+    let height = |position: Vector3<f64>| bottom.height(position.x, position.y).0;
     let on = |end: Vector3<f64>| (end.z - height(end)).abs() < ON_BOTTOM;
     let turned = !on(second) && on(first);
     let (from, to) = if turned { (second, first) } else { (first, second) };

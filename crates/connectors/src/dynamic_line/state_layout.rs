@@ -73,9 +73,9 @@ impl StateLayout {
     /// Writes the energy balance behind a state.
     pub fn write_balance(&self, balance: &RodEnergyBalance, out: &mut [f64]) {
         if self.balance > 0
-            && let Some(place) = out.last_chunk_mut()
+            && let Some(position) = out.last_chunk_mut()
         {
-            *place = balance.pack();
+            *position = balance.pack();
         }
     }
 
@@ -89,6 +89,9 @@ impl StateLayout {
     }
 
     /// Writes a state that has begun, and what its tensioner has paid out.
+    ///
+    /// # Errors
+    /// A state of another length, or of another line.
     pub fn write(
         &self,
         (rod, bands): (&Rod, &Bands),
@@ -105,8 +108,8 @@ impl StateLayout {
         let count = state.pack_into(motion.get_mut(..self.motion).ok_or_else(wrong)?).ok_or_else(wrong)?;
         *head = [1.0, mesh.len() as f64, count as f64, paid];
         let (own, free) = elements.split_at_mut_checked(VALUES_PER_ELEMENT * mesh.len()).ok_or_else(wrong)?;
-        for (place, (rest, rate, segment)) in own.as_chunks_mut::<VALUES_PER_ELEMENT>().0.iter_mut().zip(mesh) {
-            *place = [rest, rate, bands.part_of(segment) as f64];
+        for (position, (rest, rate, segment)) in own.as_chunks_mut::<VALUES_PER_ELEMENT>().0.iter_mut().zip(mesh) {
+            *position = [rest, rate, bands.part_of(segment) as f64];
         }
         free.fill(0.0);
         motion.get_mut(count..).ok_or_else(wrong)?.fill(0.0);
@@ -114,6 +117,9 @@ impl StateLayout {
     }
 
     /// Reads a state; none of one that has not begun.
+    ///
+    /// # Errors
+    /// A state of another length, or of another line.
     pub fn read<'a>(&self, state: &'a [f64]) -> Result<Option<StateView<'a>>, ClassError> {
         let wrong = || ClassError::new("the state of the line is not one of its own").lasting();
         let (head, rest) = state.split_at_checked(HEADER_VALUES).ok_or_else(wrong)?;

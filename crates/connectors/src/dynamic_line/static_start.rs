@@ -34,17 +34,17 @@ impl DynamicLine {
         &self,
         rod: &Rod,
         solver: &mut RodSolver,
-        places: [Vector3<f64>; 2],
+        positions: [Vector3<f64>; 2],
         environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Result<(RodState, RodEndForces), ClassError> {
         let mut from = |aside: bool| {
             let laid =
-                if aside { None } else { self.start_on_plane((rod, solver), places, environment, (around, ends)) };
+                if aside { None } else { self.start_on_plane((rod, solver), positions, environment, (around, ends)) };
             let mut state = match laid {
                 Some(laid) => laid,
                 None => {
-                    let mut state = self.fallen_shape(places, environment, around, aside)?;
+                    let mut state = self.fallen_shape(positions, environment, around, aside)?;
                     solver.statics(rod, &mut state, environment, ends).map_err(to_class_error)?;
                     state
                 }
@@ -64,7 +64,7 @@ impl DynamicLine {
     /// From where it falls: in the plane of its ends, or bowed aside from it.
     fn fallen_shape(
         &self,
-        places: [Vector3<f64>; 2],
+        positions: [Vector3<f64>; 2],
         environment: &LineEnvironment,
         around: &Surroundings,
         aside: bool,
@@ -78,9 +78,9 @@ impl DynamicLine {
             *length = self.first;
         }
         let floor = environment.bottom.map(|(bottom, ground)| (bottom, ground.friction_along));
-        let mut points = start::points(parts, &lengths, places, floor, around);
+        let mut points = start::points(parts, &lengths, positions, floor, around);
         if aside {
-            start::bow_aside(&mut points, places, lengths.iter().sum());
+            start::bow_aside(&mut points, positions, lengths.iter().sum());
         }
         RodState::along_points(&self.base.rod, &points).map_err(to_class_error)
     }
@@ -90,7 +90,7 @@ impl DynamicLine {
     fn start_on_plane(
         &self,
         (rod, solver): (&Rod, &mut RodSolver),
-        places: [Vector3<f64>; 2],
+        positions: [Vector3<f64>; 2],
         environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Option<RodState> {
@@ -99,10 +99,10 @@ impl DynamicLine {
             .ambient
             .as_ref()
             .filter(|a| a.has_bottom_grid() && self.base.plane.is_none() && self.base.laid.is_none())?;
-        let (plane, _) = start::plane(places, other)?;
+        let (plane, _) = start::plane(positions, other)?;
         let last = rod.nodes() - 1;
         let mut state = self
-            .fallen_shape(places, &LineEnvironment { bottom: Some((&plane, ground)), ..*environment }, around, false)
+            .fallen_shape(positions, &LineEnvironment { bottom: Some((&plane, ground)), ..*environment }, around, false)
             .ok()?;
         let (mut share, mut step) = (0.0, FIRST_STEP_SHARE);
         let mut to = share;
@@ -111,8 +111,8 @@ impl DynamicLine {
             let mut next = state.clone();
             let origin = next.origin;
             for x in next.position.iter_mut().take(last).skip(1) {
-                let place = *x + origin;
-                x.z += bottom.height(place.x, place.y).0 - before.height(place.x, place.y).0;
+                let position = *x + origin;
+                x.z += bottom.height(position.x, position.y).0 - before.height(position.x, position.y).0;
             }
             let environment = LineEnvironment { bottom: Some((&bottom, ground)), ..*environment };
             if solver.statics_with_friction(rod, &mut next, &environment, ends).ok()?.is_some() {

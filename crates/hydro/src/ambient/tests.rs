@@ -12,14 +12,14 @@ fn curve_reference(kind: &str, value: Option<f64>) -> Option<CurveReference> {
 }
 
 fn sea(spectrum: &str, height: f64, period: f64) -> Option<windlass_model::SeaDefinition> {
-    let places = [Span::default(); 4];
+    let positions = [Span::default(); 4];
     Some(windlass_model::SeaDefinition {
         spectrum: spectrum.into(),
         direction: PI,
         height,
         period,
         shape: Vec::new(),
-        places,
+        positions,
     })
 }
 
@@ -42,9 +42,9 @@ fn build_ambient(model: &Model) -> (Arc<dyn Ambient>, Option<Arc<Sea>>) {
     (ambient(model, sea.as_ref()).unwrap(), sea)
 }
 
-fn flow(around: &Arc<dyn Ambient>, time: f64, place: [f64; 3]) -> Flow {
+fn flow(around: &Arc<dyn Ambient>, time: f64, position: [f64; 3]) -> Flow {
     let mut out = [Flow::still_water(f64::NAN)];
-    around.flow(time, &[place.into()], &mut out);
+    around.flow(time, &[position.into()], &mut out);
     out[0]
 }
 
@@ -92,25 +92,25 @@ fn kinematics_are_sea_below_surface_and_surface_values_above() {
         let time = 21.0;
         let (mut over, mut under) = (0, 0);
         for i in 0..40 {
-            let place = Vector3::new(11.0 * f64::from(i), -3.0 * f64::from(i), -38.0 + 1.3 * f64::from(i));
-            let found = flow(&around, time, place.into());
-            let surface = 2.0 + sea.elevation(place.x, place.y, time);
+            let position = Vector3::new(11.0 * f64::from(i), -3.0 * f64::from(i), -38.0 + 1.3 * f64::from(i));
+            let found = flow(&around, time, position.into());
+            let surface = 2.0 + sea.elevation(position.x, position.y, time);
             // Airy waves leave places below the sum of their amplitudes under the mean level, and there a millionth of each is left out
             let highest: f64 = sea.components.iter().map(|c| c.amplitude).sum();
-            let far = stretching == Stretching::Linear && sea.stokes.is_none() && place.z < 2.0 - highest;
+            let far = stretching == Stretching::Linear && sea.stokes.is_none() && position.z < 2.0 - highest;
             assert!((found.surface - if far { 2.0 } else { surface }).abs() < 1e-12, "{stretching:?} {i}");
             // a micron below the surface, where the place is above it
-            let at = Vector3::new(place.x, place.y, place.z.min(surface - 1e-6));
+            let at = Vector3::new(position.x, position.y, position.z.min(surface - 1e-6));
             let want = sea.kinematics(at, time);
             let speeds: f64 = sea.components.iter().map(|c| c.amplitude * c.frequency).sum();
-            let near = if place.z > surface {
+            let near = if position.z > surface {
                 1e-5
             } else if far {
                 2e-6 * speeds
             } else {
                 1e-12
             };
-            (over, under) = if place.z > surface { (over + 1, under) } else { (over, under + 1) };
+            (over, under) = if position.z > surface { (over + 1, under) } else { (over, under + 1) };
             assert!((found.velocity - want.velocity).norm() < near, "{stretching:?} {i}");
             assert!((found.acceleration - want.acceleration).norm() < near, "{stretching:?} {i}");
         }
@@ -281,19 +281,19 @@ fn many_points_match_single_point_evaluation() {
         ..Environment::default()
     };
     let (around, _) = build_ambient(&model(env));
-    let places: Vec<Vector3<f64>> =
+    let positions: Vec<Vector3<f64>> =
         (0..200).map(|i| Vector3::new(3.0 * f64::from(i), f64::from(i), -190.0 + f64::from(i))).collect();
-    let mut out = vec![Flow::still_water(0.0); places.len()];
-    around.flow(123.4, &places, &mut out);
-    for (place, found) in places.iter().zip(&out) {
-        assert_eq!(*found, flow(&around, 123.4, (*place).into()));
+    let mut out = vec![Flow::still_water(0.0); positions.len()];
+    around.flow(123.4, &positions, &mut out);
+    for (position, found) in positions.iter().zip(&out) {
+        assert_eq!(*found, flow(&around, 123.4, (*position).into()));
     }
     if std::env::var_os("AMBIENT_SPEED").is_some() {
         let begun = std::time::Instant::now();
         for i in 0..500 {
-            around.flow(f64::from(i), &places, &mut out);
+            around.flow(f64::from(i), &positions, &mut out);
         }
-        let each = begun.elapsed().as_secs_f64() / (500.0 * places.len() as f64);
+        let each = begun.elapsed().as_secs_f64() / (500.0 * positions.len() as f64);
         std::io::Write::write_fmt(&mut std::io::stderr(), format_args!("{:.0} ns a place\n", each * 1e9)).unwrap();
     }
 }

@@ -140,10 +140,10 @@ fn excitation(
             return Err(file.wrong_at(*below, "six moduli and six phases are expected"));
         }
         let mut six = Amplitudes::default();
-        for (mode, (place, (modulus, phase))) in six.iter_mut().zip(values.iter().zip(phases)).enumerate() {
+        for (mode, (position, (modulus, phase))) in six.iter_mut().zip(values.iter().zip(phases)).enumerate() {
             let moment = i32::from(mode > 2);
             let size = modulus * units.kilograms * units.metres.powi(moment);
-            *place = Complex::from_polar(size, phase.to_radians());
+            *position = Complex::from_polar(size, phase.to_radians());
         }
         found.insert(key, six);
     }
@@ -167,11 +167,11 @@ fn excitation(
 /// The whole numbers at the begin of a row.
 fn key<const N: usize>(row: &[f64]) -> Option<[usize; N]> {
     let mut out = [0; N];
-    for (place, value) in out.iter_mut().zip(row) {
+    for (position, value) in out.iter_mut().zip(row) {
         if !(1.0..=MAX_COUNT as f64).contains(value) || value.fract() != 0.0 {
             return None;
         }
-        *place = *value as usize;
+        *position = *value as usize;
     }
     (row.len() >= N).then_some(out)
 }

@@ -27,8 +27,8 @@ struct Variable {
 
 impl Variable {
     /// A value by named places; zero for dimensions that are not named.
-    fn value_at(&self, places: &[(&str, usize)]) -> f64 {
-        let of = |name: &str| places.iter().find(|p| p.0 == name).map_or(0, |p| p.1);
+    fn value_at(&self, positions: &[(&str, usize)]) -> f64 {
+        let of = |name: &str| positions.iter().find(|p| p.0 == name).map_or(0, |p| p.1);
         let index = self.names.iter().zip(&self.sizes).fold(0, |sum, (name, size)| sum * size + of(name));
         self.values.get(index).copied().unwrap_or(f64::NAN)
     }
@@ -198,13 +198,13 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
         let moving = set.directions("radiating_dof", body)?;
         single_places(&set, "added_mass", &added, &[along, "influenced_dof", "radiating_dof"])?;
         let of = |v: &Variable, at: usize| set.matrix(v, (&rigid, &moving), at, along);
-        for (place, w) in &order {
+        for (position, w) in &order {
             match *w {
-                0.0 => data.zero = Some(of(&added, *place)),
-                f64::INFINITY => data.infinite = Some(of(&added, *place)),
+                0.0 => data.zero = Some(of(&added, *position)),
+                f64::INFINITY => data.infinite = Some(of(&added, *position)),
                 _ => {
-                    data.added_mass.push(of(&added, *place));
-                    data.damping.push(of(&damping, *place));
+                    data.added_mass.push(of(&added, *position));
+                    data.damping.push(of(&damping, *position));
                 }
             }
         }
@@ -266,9 +266,14 @@ fn excitation(
     let table = headings.iter().map(|(h, _)| {
         let at = |w: usize| {
             let mut six = Amplitudes::default();
-            for (place, mode) in rigid {
+            for (position, mode) in rigid {
                 let part = |part: usize| {
-                    force.value_at(&[(along, w), ("influenced_dof", *place), ("wave_direction", *h), ("complex", part)])
+                    force.value_at(&[
+                        (along, w),
+                        ("influenced_dof", *position),
+                        ("wave_direction", *h),
+                        ("complex", part),
+                    ])
                 };
                 if let Some(x) = six.get_mut(*mode) {
                     *x = Complex::new(part(0), part(1));

@@ -71,8 +71,8 @@ fn find_invalid_value(data: &Database) -> Option<String> {
     let name = |i: usize| MODES.get(i).copied().unwrap_or_default();
     let entry = |m: &Matrix6<f64>| m.iter().position(bad).map(|at| format!("{}-{}", name(at % 6), name(at / 6)));
     let by_frequency = |what: &str, list: &[Matrix6<f64>]| {
-        let found = list.iter().zip(&data.frequencies).find_map(|(m, w)| entry(m).map(|place| (place, *w)));
-        found.map(|(place, w)| format!("{what} {place} at {w:.4} rad/s"))
+        let found = list.iter().zip(&data.frequencies).find_map(|(m, w)| entry(m).map(|position| (position, *w)));
+        found.map(|(position, w)| format!("{what} {position} at {w:.4} rad/s"))
     };
     let single = |what: &str, m: &Option<Matrix6<f64>>| Some(format!("{what} {}", entry(m.as_ref()?)?));
     let by_wave = |what: &str, table: &[Vec<Amplitudes>]| {

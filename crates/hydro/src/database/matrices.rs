@@ -1,6 +1,6 @@
 //! Added mass and damping by frequency from rows of single pairs of directions.
 
-use super::rows::{DatabaseError, Flaw, SourceFile, axis, complete, place, same_frequency};
+use super::rows::{DatabaseError, Flaw, SourceFile, axis, complete, position, same_frequency};
 use nalgebra::Matrix6;
 use std::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ pub(super) fn by_frequency(file: &SourceFile, rows: &[PairRow]) -> Result<ByFreq
     }
     let frequencies = axis(rows.iter().map(|r| r.0), same_frequency);
     let pairs = axis(rows.iter().map(|r| r.1 as f64), |a, b| a == b);
-    let placed = rows.iter().map(|(w, p, v)| ([place(&frequencies, *w), place(&pairs, *p as f64)], *v)).collect();
+    let placed = rows.iter().map(|(w, p, v)| ([position(&frequencies, *w), position(&pairs, *p as f64)], *v)).collect();
     let size = rows.iter().map(|r| r.2[0].abs()).fold(0.0, f64::max);
     let same = |a: &[f64; 2], b: &[f64; 2]| (a[0] - b[0]).abs() <= 1e-4 * size;
     let dense = complete(placed, [frequencies.len(), pairs.len()], same).map_err(|flaw| {

@@ -86,13 +86,13 @@ impl Integrals {
 
     /// K1 and K2 at a lag (s): polynomials with the values and slopes of both neighbours.
     fn integrals_at_lag(&self, lag: f64) -> (Matrix6<f64>, Matrix6<f64>) {
-        let place = lag / self.step;
-        let (Some(a), Some(b)) = (self.list.get(place as usize), self.list.get(place as usize + 1)) else {
+        let position = lag / self.step;
+        let (Some(a), Some(b)) = (self.list.get(position as usize), self.list.get(position as usize + 1)) else {
             let end = self.list.last().copied().unwrap_or_default();
             let beyond = lag - (self.list.len() - 1) as f64 * self.step;
             return (end.first, end.second + end.first * beyond);
         };
-        let (h, x) = (self.step, place - place.floor());
+        let (h, x) = (self.step, position - position.floor());
         let (x2, x3) = (x * x, x * x * x);
         let first = a.first
             + (b.first - a.first) * (3.0 * x2 - 2.0 * x3)
@@ -202,17 +202,17 @@ impl RetardationMemory {
 
     /// Adds what the velocities of the grid make but the newest, whose lag is given (s).
     fn convolve(&self, near: f64, (rings, newest): (&[f64], usize), past: &mut Six) {
-        let place = near / self.step;
-        let whole = place.round();
+        let position = near / self.step;
+        let whole = position.round();
         let slice = |pair: &DirectionPair| &ring(rings, pair.column, self.lags, newest)[1..];
         // the weight of a lag of n steps is number n - 1
-        if (place - whole).abs() < EQUAL_TIMES_SHARE {
+        if (position - whole).abs() < EQUAL_TIMES_SHARE {
             for pair in &self.pairs {
                 past[pair.row] += dot(pair.weights_from(whole as usize), slice(pair));
             }
             return;
         }
-        let (whole, share) = (place as usize, place - place.floor());
+        let (whole, share) = (position as usize, position - position.floor());
         // between one step and two there is no weight on the other side of the first
         let direct = usize::from(whole == 0);
         if direct == 1 {
@@ -276,11 +276,11 @@ impl RetardationMemory {
 
     /// Puts a velocity before all others.
     fn push(&self, velocity: &Six, head: &mut [f64], rings: &mut [f64]) {
-        let place = (head[HEAD] as usize + self.lags - 1) % self.lags;
-        head[HEAD] = place as f64;
+        let position = (head[HEAD] as usize + self.lags - 1) % self.lags;
+        head[HEAD] = position as f64;
         for (ring, value) in rings.chunks_exact_mut(2 * self.lags).zip(velocity.iter()) {
-            ring[place] = *value;
-            ring[place + self.lags] = *value;
+            ring[position] = *value;
+            ring[position + self.lags] = *value;
         }
     }
 }

@@ -37,8 +37,10 @@ const HERTZ: usize = 15;
 /// A file that does not have the form; a wave that is missing or given twice.
 pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Result<Database, DatabaseError> {
     let columns = find_columns(file)?;
-    let place = |column: usize| columns.iter().position(|c| *c == column);
-    let (Some(direction), Some(wave)) = (place(0), place(1).or_else(|| place(RADIANS)).or_else(|| place(HERTZ))) else {
+    let position = |column: usize| columns.iter().position(|c| *c == column);
+    let (Some(direction), Some(wave)) =
+        (position(0), position(1).or_else(|| position(RADIANS)).or_else(|| position(HERTZ)))
+    else {
         return Err(file.error("its columns have no direction WD, or no period WP and no frequency WFR or WFH"));
     };
     let kind = columns.get(wave).copied().unwrap_or_default();
@@ -46,7 +48,7 @@ pub fn read(source: &str, file: &SourceFile, convention: &RaoConvention) -> Resu
     for row in file.rows(columns.len())? {
         let frequency = frequency(file, &row, wave, kind)?;
         for mode in 0..6 {
-            let (Some(amplitude), Some(phase)) = (place(2 + 2 * mode), place(3 + 2 * mode)) else { continue };
+            let (Some(amplitude), Some(phase)) = (position(2 + 2 * mode), position(3 + 2 * mode)) else { continue };
             let size = row.number(amplitude);
             let size = if mode >= 3 && convention.degrees { size.to_radians() } else { size };
             let phase = row.number(phase).to_radians();

@@ -129,8 +129,8 @@ pub(super) fn number(word: &str) -> Option<f64> {
 fn row(line: usize, text: &str) -> Result<NumberRow, usize> {
     let mut row = NumberRow { line, count: 0, values: [0.0; 16] };
     let words = text.split(separates).filter(|w| !w.is_empty());
-    for (index, (word, place)) in words.zip(row.values.iter_mut()).enumerate() {
-        *place = number(word).ok_or(index)?;
+    for (index, (word, position)) in words.zip(row.values.iter_mut()).enumerate() {
+        *position = number(word).ok_or(index)?;
         row.count = index + 1;
     }
     Ok(row)
@@ -155,7 +155,7 @@ pub(super) fn same_heading(a: f64, b: f64) -> bool {
 }
 
 /// Where a value stands in an axis that has it.
-pub(super) fn place(axis: &[f64], value: f64) -> usize {
+pub(super) fn position(axis: &[f64], value: f64) -> usize {
     let next = axis.partition_point(|a| *a < value);
     let off = |i: usize| axis.get(i).map_or(f64::INFINITY, |a| (a - value).abs());
     match next.checked_sub(1) {
@@ -251,7 +251,10 @@ pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, Dat
     let modes = axis(rows.iter().map(|r| r.mode as f64), |a, b| a == b);
     let size = rows.iter().map(|r| r.value.norm()).fold(0.0, f64::max);
     let placed = rows.iter().map(|r| {
-        ([place(&headings, r.heading), place(&frequencies, r.frequency), place(&modes, r.mode as f64)], r.value)
+        (
+            [position(&headings, r.heading), position(&frequencies, r.frequency), position(&modes, r.mode as f64)],
+            r.value,
+        )
     });
     let sizes = [headings.len(), frequencies.len(), modes.len()];
     let describe = |[h, f, m]: [usize; 3]| {
@@ -265,8 +268,8 @@ pub(super) fn by_wave(file: &SourceFile, rows: &[ModeRow]) -> Result<ByWave, Dat
     let six = |chunk: &[Complex<f64>]| {
         let mut six: Amplitudes = Default::default();
         for (mode, value) in modes.iter().zip(chunk) {
-            if let Some(place) = six.get_mut(*mode as usize) {
-                *place = *value;
+            if let Some(position) = six.get_mut(*mode as usize) {
+                *position = *value;
             }
         }
         six

@@ -1,6 +1,6 @@
 //! The other side of a body that is symmetric about its x-z plane.
 
-use super::rows::{axis, place, same_heading};
+use super::rows::{axis, position, same_heading};
 use std::f64::consts::TAU;
 use windlass_model::Database;
 
@@ -54,11 +54,11 @@ fn fill<T: Clone>(headings: &[f64], tables: &mut Vec<Vec<T>>, mirror: impl Fn(&T
     }
     let both = both_sides(headings);
     let made = both.iter().map(|heading| {
-        let near = |h: f64| headings.get(place(headings, h)).is_some_and(|own| same_heading(*own, h));
+        let near = |h: f64| headings.get(position(headings, h)).is_some_and(|own| same_heading(*own, h));
         if near(*heading) {
-            return tables.get(place(headings, *heading)).cloned().unwrap_or_default();
+            return tables.get(position(headings, *heading)).cloned().unwrap_or_default();
         }
-        tables.get(place(headings, other(*heading))).map_or(Vec::new(), |t| t.iter().map(&mirror).collect())
+        tables.get(position(headings, other(*heading))).map_or(Vec::new(), |t| t.iter().map(&mirror).collect())
     });
     *tables = made.collect();
 }

@@ -36,7 +36,7 @@ pub struct TypedAxes {
 /// No period, or one that is given twice; matrices or headings that only some periods have; what every database is refused for.
 pub fn build(
     source: &str,
-    place: &TypedAxes,
+    position: &TypedAxes,
     periods: &[TypedPeriod],
     around: &Surroundings,
 ) -> Result<Database, DatabaseError> {
@@ -52,10 +52,10 @@ pub fn build(
         }
     }
     let has_matrices = first.added_mass.is_some();
-    let headings = axis(first.forces.iter().map(|(heading, _)| turn_heading(*heading, place.yaw)), same_heading);
+    let headings = axis(first.forces.iter().map(|(heading, _)| turn_heading(*heading, position.yaw)), same_heading);
     let mut turn = Matrix6::zeros();
     for at in [0, 3] {
-        turn.fixed_view_mut::<3, 3>(at, at).copy_from(&place.axes);
+        turn.fixed_view_mut::<3, 3>(at, at).copy_from(&position.axes);
     }
     let (mut added_mass, mut damping) = (Vec::new(), Vec::new());
     let mut excitation = vec![Vec::new(); headings.len()];
@@ -74,19 +74,19 @@ pub fn build(
             return wrong(format!("the period of {} s has not the headings of the others, each once", given.period));
         }
         for (heading, row) in headings.iter().zip(&mut excitation) {
-            let own = given.forces.iter().find(|(own, _)| same_heading(turn_heading(*own, place.yaw), *heading));
+            let own = given.forces.iter().find(|(own, _)| same_heading(turn_heading(*own, position.yaw), *heading));
             let Some((_, force)) = own else {
                 return wrong(format!(
                     "the period of {} s has not the headings of the others, each once",
                     given.period
                 ));
             };
-            row.push(rotate(&place.axes, force));
+            row.push(rotate(&position.axes, force));
         }
     }
     check_database(Database {
         source: source.to_string(),
-        reference: place.reference,
+        reference: position.reference,
         frequencies: list.iter().map(|given| TAU / given.period).collect(),
         added_mass,
         damping,

@@ -3,7 +3,7 @@
 //! Source: [WAMIT-7 second-order output]: `F(t) = Re sum_ij F_ij a_i conj(a_j) exp(+i (w_i - w_j) t)`, `F_ji = conj(F_ij)`,
 //! made dimensionless by `rho g L` (forces) and `rho g L^2` (moments). The file gives each pair once or twice.
 
-use super::rows::{DatabaseError, SourceFile, axis, heading, place, same_frequency, same_heading};
+use super::rows::{DatabaseError, SourceFile, axis, heading, position, same_frequency, same_heading};
 use super::wamit::{WamitScale, check_table_size, empty_qtf, frequency, mode_of};
 use nalgebra::Complex;
 use windlass_model::Qtf;
@@ -49,12 +49,12 @@ pub(super) fn read(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitSc
     let mut qtf = empty_qtf(headings, frequencies);
     let mut given = vec![vec![false; count * count]; qtf.headings.len()];
     for pair in &pairs {
-        let h = place(&qtf.headings, pair.heading);
-        let (i, j) = (place(&qtf.frequencies, pair.first), place(&qtf.frequencies, pair.second));
+        let h = position(&qtf.headings, pair.heading);
+        let (i, j) = (position(&qtf.frequencies, pair.first), position(&qtf.frequencies, pair.second));
         for (a, b, value) in [(i, j, pair.value), (j, i, pair.value.conj())] {
             let cell = qtf.values.get_mut(h).and_then(|t| t.get_mut(a)).and_then(|t| t.get_mut(b));
-            if let Some(place) = cell.and_then(|six| six.get_mut(pair.mode)) {
-                *place = value;
+            if let Some(position) = cell.and_then(|six| six.get_mut(pair.mode)) {
+                *position = value;
             }
             if let Some(mark) = given.get_mut(h).and_then(|t| t.get_mut(a * count + b)) {
                 *mark = true;

@@ -37,15 +37,15 @@ impl WaveGroup {
     }
 
     fn push(&mut self, [amplitude, frequency, kx, ky, phase]: [f64; 5]) {
-        let place = self.amplitude.len() % LANES;
+        let position = self.amplitude.len() % LANES;
         self.amplitude.push(amplitude);
         self.frequency.push(frequency);
-        if place == 0 {
+        if position == 0 {
             self.phases.push([[0.0; LANES]; 4]);
         }
         if let Some(last) = self.phases.last_mut() {
             for (lane, value) in last.iter_mut().zip([frequency, kx, ky, phase]) {
-                lane[place] = value;
+                lane[position] = value;
             }
         }
     }
@@ -111,9 +111,9 @@ impl<const WIDTH: usize> WaveTable<WIDTH> {
             let mut table = Vec::with_capacity(group.phases.len());
             for (frequencies, amplitudes) in group.frequency.chunks(LANES).zip(group.amplitude.chunks(LANES)) {
                 let mut lanes = [[0.0; LANES]; WIDTH];
-                for (place, (w, a)) in frequencies.iter().zip(amplitudes).enumerate() {
+                for (position, (w, a)) in frequencies.iter().zip(amplitudes).enumerate() {
                     let values = value(index, *w, *a)?;
-                    lanes.iter_mut().zip(values).for_each(|(lane, v)| lane[place] = v);
+                    lanes.iter_mut().zip(values).for_each(|(lane, v)| lane[position] = v);
                 }
                 table.push(lanes);
             }

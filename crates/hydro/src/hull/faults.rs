@@ -58,7 +58,7 @@ pub enum Fault {
     },
 }
 
-fn place(at: &[f64; 3]) -> String {
+fn position(at: &[f64; 3]) -> String {
     let [x, y, z] = at;
     format!("({x:.3} {y:.3} {z:.3})")
 }
@@ -68,21 +68,21 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Fault::Open { edge: [a, b] } => {
-                write!(f, "the edge from {} to {} has a face on one side only", place(a), place(b))
+                write!(f, "the edge from {} to {} has a face on one side only", position(a), position(b))
             }
             Fault::Crowded { edge: [a, b], faces } => {
-                write!(f, "the edge from {} to {} has {faces} faces", place(a), place(b))
+                write!(f, "the edge from {} to {} has {faces} faces", position(a), position(b))
             }
             Fault::Turned { edge: [a, b] } => {
-                write!(f, "the faces at the edge from {} to {} look to different sides", place(a), place(b))
+                write!(f, "the faces at the edge from {} to {} look to different sides", position(a), position(b))
             }
             Fault::InsideOut { volume, at } => {
-                write!(f, "the part at {} is inside out: its volume is {volume:.3} m3", place(at))
+                write!(f, "the part at {} is inside out: its volume is {volume:.3} m3", position(at))
             }
             Fault::Cut { faces: [a, b], at } => {
-                write!(f, "faces {} and {} cut each other at {}", a + 1, b + 1, place(at))
+                write!(f, "faces {} and {} cut each other at {}", a + 1, b + 1, position(at))
             }
-            Fault::Degenerate { face, at } => write!(f, "face {} at {} has no area", face + 1, place(at)),
+            Fault::Degenerate { face, at } => write!(f, "face {} at {} has no area", face + 1, position(at)),
         }
     }
 }

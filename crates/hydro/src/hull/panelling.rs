@@ -34,17 +34,17 @@ struct PanelNodes {
 }
 
 impl PanelNodes {
-    fn place(&self, node: u32) -> Vector3<f64> {
+    fn position(&self, node: u32) -> Vector3<f64> {
         self.at[node as usize]
     }
 
-    fn add(&mut self, place: Vector3<f64>) -> u32 {
-        self.at.push(place);
+    fn add(&mut self, position: Vector3<f64>) -> u32 {
+        self.at.push(position);
         (self.at.len() - 1) as u32
     }
 
     fn length(&self, p: u32, q: u32) -> f64 {
-        (self.place(q) - self.place(p)).norm()
+        (self.position(q) - self.position(p)).norm()
     }
 
     fn middle(&mut self, p: u32, q: u32) -> u32 {
@@ -52,7 +52,7 @@ impl PanelNodes {
         if let Some(known) = self.middles.get(&key) {
             return *known;
         }
-        let made = self.add((self.place(p) + self.place(q)) * 0.5);
+        let made = self.add((self.position(p) + self.position(q)) * 0.5);
         self.middles.insert(key, made);
         made
     }
@@ -60,7 +60,7 @@ impl PanelNodes {
     /// The nodes from p to q, both ends among them, in a number of equal parts.
     fn divide_edge(&mut self, p: u32, q: u32, parts: usize) -> Vec<u32> {
         let key = (p.min(q), p.max(q));
-        let (from, to) = (self.place(key.0), self.place(key.1));
+        let (from, to) = (self.position(key.0), self.position(key.1));
         if !self.rows.contains_key(&(key.0, key.1, parts)) {
             let inner = (1..parts).map(|i| self.add(from + (to - from) * (i as f64 / parts as f64))).collect();
             self.rows.insert((key.0, key.1, parts), inner);
@@ -131,7 +131,7 @@ impl Panelling {
         }
         let (mut open, mut panels) = (self.panels.clone(), Vec::new());
         while let Some([a, b, c, x, y, z]) = open.pop() {
-            let corners = [a, b, c].map(|n| nodes.place(n));
+            let corners = [a, b, c].map(|n| nodes.position(n));
             let longest = nodes.length(a, b).max(nodes.length(b, c)).max(nodes.length(c, a));
             if longest <= limit(&corners) {
                 panels.push([a, b, c, x, y, z]);
@@ -151,8 +151,8 @@ impl Panelling {
 
 /// The parallelograms of a surface, corners in turn, and the triangles that are left.
 fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
-    let place = |n: u32| surface.vertices[n as usize];
-    let length = |p: u32, q: u32| (place(q) - place(p)).norm();
+    let position = |n: u32| surface.vertices[n as usize];
+    let length = |p: u32, q: u32| (position(q) - position(p)).norm();
     // each face turned so that its longest edge, where there is one, comes first
     let turned = |[a, b, c]: [u32; 3]| {
         let turns = [[a, b, c], [b, c, a], [c, a, b]];
@@ -167,7 +167,7 @@ fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
     for (index, face) in surface.faces.iter().enumerate() {
         let Some([p, q, r]) = turned(*face) else { continue };
         if let Some((other, s)) = open.remove(&(q, p)) {
-            let gap = (place(r) + place(s) - place(p) - place(q)).norm();
+            let gap = (position(r) + position(s) - position(p) - position(q)).norm();
             if gap <= EQUAL_LENGTHS_SHARE * length(p, q) {
                 parallelograms.push([p, s, q, r]);
                 for n in [index, other] {
@@ -191,7 +191,8 @@ fn divide_parallelogram(nodes: &mut PanelNodes, [a, b, c, d]: [u32; 4], side: f6
     let (columns, rows) = (parts(nodes.length(a, b)), parts(nodes.length(a, d)));
     let (low, high) = (nodes.divide_edge(a, b, columns), nodes.divide_edge(d, c, columns));
     let (left, right) = (nodes.divide_edge(a, d, rows), nodes.divide_edge(b, c, rows));
-    let (origin, along, up) = (nodes.place(a), nodes.place(b) - nodes.place(a), nodes.place(d) - nodes.place(a));
+    let (origin, along, up) =
+        (nodes.position(a), nodes.position(b) - nodes.position(a), nodes.position(d) - nodes.position(a));
     let mut lines = vec![low];
     for j in 1..rows {
         let mut line = vec![left[j]];
@@ -208,7 +209,7 @@ fn divide_parallelogram(nodes: &mut PanelNodes, [a, b, c, d]: [u32; 4], side: f6
             let ([p, q], [s, r]) = (lower, upper) else { continue };
             let (p, q, r, s) = (*p, *q, *r, *s);
             if 2 * i + 1 == columns || 2 * j + 1 == rows {
-                let middle = nodes.add((nodes.place(p) + nodes.place(r)) * 0.5);
+                let middle = nodes.add((nodes.position(p) + nodes.position(r)) * 0.5);
                 done.extend([[p, q, middle], [q, r, middle], [r, s, middle], [s, p, middle]]);
             } else if (2 * i < columns) == (2 * j < rows) {
                 done.extend([[p, q, r], [p, r, s]]);
@@ -237,7 +238,8 @@ fn divide_triangle(nodes: &mut PanelNodes, [a, b, c]: [u32; 3], longest: f64) ->
             let (one, other) = (nodes.length(a, y), nodes.length(x, c));
             let mut parts = vec![[x, b, y]];
             if (one - other).abs() <= EQUAL_LENGTHS_SHARE * one {
-                let middle = nodes.add((nodes.place(a) + nodes.place(x) + nodes.place(y) + nodes.place(c)) * 0.25);
+                let middle =
+                    nodes.add((nodes.position(a) + nodes.position(x) + nodes.position(y) + nodes.position(c)) * 0.25);
                 parts.extend([[a, x, middle], [x, y, middle], [y, c, middle], [c, a, middle]]);
             } else if one < other {
                 parts.extend([[a, x, y], [a, y, c]]);

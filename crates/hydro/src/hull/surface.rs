@@ -169,12 +169,12 @@ impl Surface {
     fn gather(&self, pose: &Pose, level: f64, mut sum: HullSums) -> HullSums {
         let drop = pose.origin.z - level;
         let axes = &pose.axes;
-        let place = |p: &Vector3<f64>| {
+        let position = |p: &Vector3<f64>| {
             let mut at = axes * p;
             at.z += drop;
             at
         };
-        let placed: Vec<Vector3<f64>> = self.vertices.iter().map(place).collect();
+        let placed: Vec<Vector3<f64>> = self.vertices.iter().map(position).collect();
         let corner = |n: u32| placed.get(n as usize).copied();
         for &[a, b, c] in &self.faces {
             let (Some(a), Some(b), Some(c)) = (corner(a), corner(b), corner(c)) else { continue };

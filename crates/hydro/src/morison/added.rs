@@ -10,8 +10,8 @@ pub(super) fn add(sum: &mut Matrix6<f64>, arm: &Vector3<f64>, mass: &Matrix3<f64
     let arm = cross(*arm);
     let beside = mass * arm;
     for (at, block) in [((0, 0), *mass), ((0, 3), -beside), ((3, 0), arm * mass), ((3, 3), -(arm * beside))] {
-        let mut place = sum.fixed_view_mut::<3, 3>(at.0, at.1);
-        place += block;
+        let mut position = sum.fixed_view_mut::<3, 3>(at.0, at.1);
+        position += block;
     }
 }
 

@@ -124,8 +124,8 @@ impl MemberInPose {
         let (standing, count) = (*self, heights.len());
         let nth =
             move |n: usize| heights.get(if standing.axis.z > 0.0 { count.checked_sub(n + 1)? } else { n }).copied();
-        let place = move |z: f64| (z - standing.origin - standing.from.z) / standing.axis.z;
-        let cuts = (0..count).filter_map(move |n| nth(n).map(place)).filter(move |at| *at > from && *at < to);
+        let position = move |z: f64| (z - standing.origin - standing.from.z) / standing.axis.z;
+        let cuts = (0..count).filter_map(move |n| nth(n).map(position)).filter(move |at| *at > from && *at < to);
         cuts.chain(std::iter::once(to)).scan(from, |start, end| Some((std::mem::replace(start, end), end)))
     }
 
@@ -186,9 +186,9 @@ impl MemberLength {
         let level = steady.around.tide;
         for station in self.ranges().flat_map(|r| standing.parts(r, kinks)).flat_map(|r| standing.stations(r, level)) {
             let arm = standing.arm(station.at);
-            let place = LoadPlace { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
+            let position = LoadPlace { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);
-            let load = place.load_in(steady, pose, stream, |flow| {
+            let load = position.load_in(steady, pose, stream, |flow| {
                 let (force, by_flow) = drag((self.across, self.along), (&self.axis, &self.first), &flow);
                 let mut push = StreamWrench { wrench: Six::zeros(), by_velocity: Matrix6x3::zeros() };
                 push.wrench.fixed_rows_mut::<3>(0).copy_from(&force);

@@ -61,9 +61,9 @@ struct WaterAtTime<'a> {
 impl WaterAtTime<'_> {
     /// At a station, in the middle of what is wet of it.
     fn kinematics_at(&self, standing: &MemberInPose, station: &Station) -> Kinematics {
-        let mut place = self.origin + standing.arm(station.at);
-        place.z -= station.lower() * standing.rise;
-        self.sea.as_ref().map_or(Kinematics::still_water(0.0), |sea| sea.kinematics(place))
+        let mut position = self.origin + standing.arm(station.at);
+        position.z -= station.lower() * standing.rise;
+        self.sea.as_ref().map_or(Kinematics::still_water(0.0), |sea| sea.kinematics(position))
     }
 
     fn current(&self, z: f64) -> Vector3<f64> {
@@ -77,8 +77,8 @@ impl WaterAtTime<'_> {
         let mut found = 0.0;
         // twice again from where it was found to cut: the axis leans, and the surface slopes less
         for n in 0..3 {
-            let place = self.origin + standing.arm(at);
-            found = sea.elevation(place.x, place.y);
+            let position = self.origin + standing.arm(at);
+            found = sea.elevation(position.x, position.y);
             let next = (self.level + found - self.origin.z - standing.from.z) / standing.axis.z;
             let cut = (from..=to).contains(&next);
             if n == 2 || !cut || standing.axis.x.hypot(standing.axis.y) * (next - at).abs() < 1e-3 {
@@ -216,9 +216,9 @@ impl MemberWaveLoads {
             }
             let flow = found.velocity + water.current(water.origin.z + arm.z);
             let wet = station.share() * station.long;
-            let (slot_drag, places) = slot.split_at_mut(3);
+            let (slot_drag, positions) = slot.split_at_mut(3);
             slot_drag.copy_from_slice(&[rod.across[0] * wet, rod.across[1] * wet, rod.along * wet]);
-            for (kept, value) in places.iter_mut().zip(axis.iter().chain(&standing.first).chain(&arm).chain(&flow)) {
+            for (kept, value) in positions.iter_mut().zip(axis.iter().chain(&standing.first).chain(&arm).chain(&flow)) {
                 *kept = *value;
             }
         }
@@ -231,11 +231,11 @@ impl MemberWaveLoads {
         let (stations, _) =
             state[HEADER_STATES + STATES_PER_SEGMENT * self.segments..].as_chunks::<STATES_PER_STATION>();
         for station in stations {
-            let [of_width, of_depth, along, places @ ..] = station;
+            let [of_width, of_depth, along, positions @ ..] = station;
             if *of_width == 0.0 && *of_depth == 0.0 && *along == 0.0 {
                 continue;
             }
-            let [ax, ay, az, fx, fy, fz, rx, ry, rz, ux, uy, uz] = *places;
+            let [ax, ay, az, fx, fy, fz, rx, ry, rz, ux, uy, uz] = *positions;
             let (axis, first) = (Vector3::new(ax, ay, az), Vector3::new(fx, fy, fz));
             let (arm, flow) = (Vector3::new(rx, ry, rz), Vector3::new(ux, uy, uz));
             let flow = flow - own - turn.cross(&arm);

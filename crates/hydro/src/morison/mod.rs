@@ -88,7 +88,7 @@ pub fn build_members(
     let steady = Arc::new(if under_way.is_some() { mean.under_way(model, &model.environment)? } else { mean });
     let sea = under_way.flatten();
     let reach = MAX_SEGMENT_KL / sea.map_or(0.0, |sea| mean_number(sea));
-    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.place));
+    let (growth, pose) = (Growth::from_environment(model, &model.environment)?, Pose::from_place(&body.position));
     let mut made = Vec::new();
     for part in model.parts_of(body) {
         for piece in &part.pieces {
@@ -141,7 +141,7 @@ fn rods(
     growth: Option<(&Growth, &Pose)>,
 ) -> Vec<MemberLength> {
     let Some(own) = piece.member else { return Vec::new() };
-    let (ends, bare, width) = match piece.shape.with_displacement(&part.place) {
+    let (ends, bare, width) = match piece.shape.with_displacement(&part.position) {
         Shape::Tube { ends, diameter } => (ends.map(Vector3::from), diameter, None),
         Shape::Bar { ends, sides } => {
             let [width, depth] = sides.map(Vector3::from);

@@ -94,7 +94,7 @@ impl WaveLanes {
 #[derive(Clone, Debug, Default)]
 struct DeepPlaces {
     indices: [usize; 8],
-    places: Places,
+    positions: Places,
     count: usize,
 }
 
@@ -104,18 +104,18 @@ impl DeepPlaces {
         let [x, y] = toward.map_or([at.x, at.y], |[x, y]| [at.x * x + at.y * y, 0.0]);
         let i = self.count;
         self.indices[i] = index;
-        (self.places.x[i], self.places.y[i], self.places.height[i]) = (x, y, height);
+        (self.positions.x[i], self.positions.y[i], self.positions.height[i]) = (x, y, height);
         self.count += 1;
     }
 
     /// The places, those that are missing like the first.
     fn fill_batch(&mut self, count: usize) -> &Places {
-        let Places { x, y, height } = &mut self.places;
+        let Places { x, y, height } = &mut self.positions;
         for of in [x, y, height] {
             let (own, missing) = of.split_at_mut(count);
             missing.fill(own[0]);
         }
-        &self.places
+        &self.positions
     }
 }
 
@@ -222,12 +222,12 @@ impl<'a> SeaAt<'a> {
     /// what they are at the mean level are left out, and the mirror term of finite depth where it is less than a thousand-millionth.
     /// Velocity, acceleration and pressure err by no more than twice these shares of the sums of those that the left out waves have there,
     /// and by 2e-9 of the others.
-    pub fn wetted_lines(&self, places: &[Vector3<f64>], mut take: impl FnMut(usize, Kinematics)) {
+    pub fn wetted_lines(&self, positions: &[Vector3<f64>], mut take: impl FnMut(usize, Kinematics)) {
         let sea = self.sea;
         let (reach, near) = (sea.lanes.far.reach, -sea.lanes.highest);
         let airy = sea.stokes.is_none() && sea.stretching == Stretching::Linear;
         let mut groups = [DeepPlaces::default(), DeepPlaces::default()];
-        for (index, at) in places.iter().enumerate() {
+        for (index, at) in positions.iter().enumerate() {
             let height = at.z - sea.level;
             // a place that is no number is not far down
             if !(airy && height < near && at.x.abs() + at.y.abs() <= reach) {
@@ -253,12 +253,12 @@ impl<'a> SeaAt<'a> {
         if count == 0 {
             return;
         }
-        let (sea, far, places) = (self.sea, &self.sea.lanes.far, group.fill_batch(count));
+        let (sea, far, positions) = (self.sea, &self.sea.lanes.far, group.fill_batch(count));
         let [pressure, u, v, w, u_rate, v_rate, w_rate] = match (sea.lanes.toward.is_none(), lies) {
-            (true, true) => far.sums_on_bottom::<true>(self.time, places),
-            (true, false) => far.sums::<true>(self.time, places),
-            (false, true) => far.sums_on_bottom::<false>(self.time, places),
-            (false, false) => far.sums::<false>(self.time, places),
+            (true, true) => far.sums_on_bottom::<true>(self.time, positions),
+            (true, false) => far.sums::<true>(self.time, positions),
+            (false, true) => far.sums_on_bottom::<false>(self.time, positions),
+            (false, false) => far.sums::<false>(self.time, positions),
         };
         let weight = sea.density * sea.gravity * self.factor;
         for (i, index) in group.indices.iter().enumerate().take(count) {

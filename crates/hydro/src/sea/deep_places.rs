@@ -118,13 +118,13 @@ impl DeepWaveSum {
 
     /// Pressure over rho g, velocity along x, y and up, and acceleration alike, of waves of full height at a time (s), each added up over
     /// the waves that reach down there.
-    pub fn sums<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Lanes8; 7] {
-        sum_components::<SPREAD, false>(&self.waves, time, places)
+    pub fn sums<const SPREAD: bool>(&self, time: f64, positions: &Places) -> [Lanes8; 7] {
+        sum_components::<SPREAD, false>(&self.waves, time, positions)
     }
 
     /// The same on the bottom, whose height is that of all places.
-    pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, places: &Places) -> [Lanes8; 7] {
-        sum_components::<SPREAD, true>(&self.waves, time, places)
+    pub fn sums_on_bottom<const SPREAD: bool>(&self, time: f64, positions: &Places) -> [Lanes8; 7] {
+        sum_components::<SPREAD, true>(&self.waves, time, positions)
     }
 }
 
@@ -164,9 +164,13 @@ fn polynomial<const N: usize>(factors: &[f64; N], at: f64) -> f64 {
 /// What comes out at a place is the same whatever the other places are: a wave that is left out at one of them is left out there
 /// alone.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time: f64, places: &Places) -> [Lanes8; 7] {
-    let (mut highest, mut lowest) = (places.height[0], places.height[0]);
-    for height in &places.height {
+fn sum_components<const SPREAD: bool, const LYING: bool>(
+    waves: &[FarWave],
+    time: f64,
+    positions: &Places,
+) -> [Lanes8; 7] {
+    let (mut highest, mut lowest) = (positions.height[0], positions.height[0]);
+    for height in &positions.height {
         highest = highest.max(*height);
         lowest = lowest.min(*height);
     }
@@ -178,11 +182,11 @@ fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time
         let phase = wave.phase - wave.rate * time;
         let mirrored = wave.twice - wave.number * lowest >= NEGLIGIBLE_MIRROR_LOG2;
         if LYING {
-            add::<SPREAD, true, false>(wave, phase, places, &mut sums);
+            add::<SPREAD, true, false>(wave, phase, positions, &mut sums);
         } else if mirrored {
-            add::<SPREAD, false, true>(wave, phase, places, &mut sums);
+            add::<SPREAD, false, true>(wave, phase, positions, &mut sums);
         } else {
-            add::<SPREAD, false, false>(wave, phase, places, &mut sums);
+            add::<SPREAD, false, false>(wave, phase, positions, &mut sums);
         }
     }
     sums
@@ -197,13 +201,13 @@ fn sum_components<const SPREAD: bool, const LYING: bool>(waves: &[FarWave], time
 fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
     wave: &FarWave,
     phase: f64,
-    places: &Places,
+    positions: &Places,
     sums: &mut [Lanes8; 7],
 ) {
     for i in 0..8 {
-        let mut turns = places.x[i] * wave.turns[0];
+        let mut turns = positions.x[i] * wave.turns[0];
         if SPREAD {
-            turns += places.y[i] * wave.turns[1];
+            turns += positions.y[i] * wave.turns[1];
         }
         turns += phase;
         let shifted = turns + ROUND;
@@ -223,7 +227,7 @@ fn add<const SPREAD: bool, const LYING: bool, const MIRROR: bool>(
             }
             continue;
         }
-        let power = wave.number * places.height[i];
+        let power = wave.number * positions.height[i];
         let [own, back] = decays(power, turned);
         let own = remaining_amplitude(own, power, NEGLIGIBLE_LOG2);
         let (mut cosh, mut sinh) = (own, own);

@@ -142,7 +142,7 @@ const CLOSED: LevelRange = (usize::MAX, 0);
 impl PressureGrid {
     /// That of a sea for a number of places no farther from each other than a distance (m), and over a height (m); `None` where the direct
     /// sum is cheaper, or the sea is not made of a few long-crested trains of Airy waves.
-    pub fn new(sea: &Sea, [across, height]: [f64; 2], places: usize) -> Option<Self> {
+    pub fn new(sea: &Sea, [across, height]: [f64; 2], positions: usize) -> Option<Self> {
         if sea.stokes.is_some() || sea.stretching == Stretching::Exponential || !(across > 0.0 && across.is_finite()) {
             return None;
         }
@@ -157,7 +157,7 @@ impl PressureGrid {
         // what it costs is known before it is made: the nodes bound its memory too
         let layers: Vec<Vec<[f64; 2]>> = groups.iter().map(|(_, members)| layers(members, sea.depth, across)).collect();
         let nodes: f64 = layers.iter().map(|layers| count(layers, across, height)).sum();
-        if groups.is_empty() || nodes * NODE_COST >= places as f64 {
+        if groups.is_empty() || nodes * NODE_COST >= positions as f64 {
             return None;
         }
         let made = groups.iter().zip(layers);
@@ -251,8 +251,8 @@ fn layers(members: &[&Component], water: Option<f64>, across: f64) -> Vec<[f64; 
             break;
         }
         let lowest = (deepest - above).max(0.0);
-        let [_, place] = bisect([0.0, lowest], HALVINGS, |depth| spacing(members, water, depth) < next);
-        let found = (place + above).max(top);
+        let [_, position] = bisect([0.0, lowest], HALVINGS, |depth| spacing(members, water, depth) < next);
+        let found = (position + above).max(top);
         if found >= deepest {
             break;
         }
@@ -584,11 +584,11 @@ mod tests {
             let mut square = 0.0;
             for arm in &arms {
                 let depth = sea.level - (origin.z + arm.z);
-                let place = [origin.x + arm.x, origin.y + arm.y];
+                let position = [origin.x + arm.x, origin.y + arm.y];
                 let found = filled.head(arm, sea.level - origin.z - arm.z).unwrap();
-                square += (found - sum_directly(&sea, time, place, depth)).powi(2);
+                square += (found - sum_directly(&sea, time, position, depth)).powi(2);
                 let [low, high] = filled.bounds(arm).unwrap();
-                let surface = sum_directly(&sea, time, place, 0.0);
+                let surface = sum_directly(&sea, time, position, 0.0);
                 // to the error of the interpolation
                 assert!(low - 1e-4 * deviation < surface && surface < high + 1e-4 * deviation);
             }

@@ -58,14 +58,14 @@ impl Sea {
             let bands = match &spectrum {
                 None => Vec::new(),
                 Some(spectrum) => {
-                    cut_into_bands(spectrum, env).map_err(|e| e.clone().with_span(e.span.unwrap_or(sea.place(0))))?
+                    cut_into_bands(spectrum, env).map_err(|e| e.clone().with_span(e.span.unwrap_or(sea.position(0))))?
                 }
             };
             if spectrum.is_none() {
                 let (wave, nonlinear) = regular(env, sea, env.sea_phases.get(first).copied(), water)?;
                 if nonlinear.is_some() && seas().count() > 1 {
                     return Err(ClassError::new("a STOKES wave cannot be added to another sea: it is not linear")
-                        .with_span(sea.place(0))
+                        .with_span(sea.position(0))
                         .help("REGULAR is the linear wave"));
                 }
                 components.push(wave);
@@ -79,7 +79,7 @@ impl Sea {
             };
             for ((band, toward), phase) in bands.iter().zip(directions).zip(angles) {
                 let number = dispersion::wave_number(band.frequency, water.depth, water.gravity)
-                    .map_err(|e| e.with_span(sea.place(0)))?;
+                    .map_err(|e| e.with_span(sea.position(0)))?;
                 let amplitude = (2.0 * band.energy).sqrt();
                 components.push(Component { frequency: band.frequency, number, amplitude, toward, phase });
             }
@@ -133,7 +133,7 @@ fn regular(
             "there is no regular wave with a period of {}",
             &[(sea.period, Dim::Time)],
         )
-        .with_span(sea.place(3)));
+        .with_span(sea.position(3)));
     }
     let frequency = TAU / sea.period;
     let (cos, sin) = unit_vector(sea.direction);
@@ -143,9 +143,9 @@ fn regular(
         Some(Phasing::Reinforced(time)) => (frequency * time).rem_euclid(TAU),
         _ => given.unwrap_or(0.0),
     };
-    let at = |error: ClassError| error.with_span(sea.place(2));
+    let at = |error: ClassError| error.with_span(sea.position(2));
     let mut number =
-        dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.with_span(sea.place(3)))?;
+        dispersion::wave_number(frequency, water.depth, water.gravity).map_err(|e| e.with_span(sea.position(3)))?;
     let mut stokes = None;
     if spectrum::is_stokes(sea) {
         let order = env.stokes.unwrap_or(USUAL_ORDER);
@@ -171,7 +171,7 @@ mod tests {
             height: 4.0,
             period: 10.0,
             shape: Vec::new(),
-            places: Default::default(),
+            positions: Default::default(),
         };
         model.environment = Environment { sea: Some(sea(std::f64::consts::FRAC_PI_6)), ..Environment::default() };
         model

@@ -214,22 +214,22 @@ fn deep_line_kinematics_keep_their_error_bounds() {
         let time = 777.3;
         let at = sea.at_time(time);
         let heights: Vec<f64> = (0..66).map(|i| -30.0 - 4.5 * f64::from(i)).collect();
-        let places: Vec<Vector3<f64>> = (0..66)
+        let positions: Vec<Vector3<f64>> = (0..66)
             .zip(&heights)
             .map(|(i, height)| Vector3::new(30.0 * f64::from(i) - 700.0, 13.0 * f64::from(i), height + 1.5))
             .collect();
-        let mut all = vec![Kinematics::still_water(1.0); places.len()];
-        at.wetted_lines(&places, |i, found| all[i] = found);
-        for ((place, height), found) in places.iter().zip(&heights).zip(&all) {
+        let mut all = vec![Kinematics::still_water(1.0); positions.len()];
+        at.wetted_lines(&positions, |i, found| all[i] = found);
+        for ((position, height), found) in positions.iter().zip(&heights).zip(&all) {
             // whatever places are asked together, down to the bottom and below it
-            at.wetted_lines(std::slice::from_ref(place), |_, alone| assert_eq!(alone, *found));
+            at.wetted_lines(std::slice::from_ref(position), |_, alone| assert_eq!(alone, *found));
             let height = height.max(-depth);
             let (mut pressure, mut velocity, mut rate) = (0.0, Vector3::zeros(), Vector3::zeros());
             // twice a millionth of the waves that are left out, and the stated share of the others
             let mut bounds = [0.0; 3];
             for c in &components {
                 let (k, w) = (c.number, c.frequency);
-                let q = k * (c.toward[0] * place.x + c.toward[1] * place.y) - w * time + c.phase;
+                let q = k * (c.toward[0] * position.x + c.toward[1] * position.y) - w * time + c.phase;
                 let (cosh, sinh) = ((k * (height + depth)).cosh(), (k * (height + depth)).sinh());
                 let along = Vector3::new(c.toward[0], c.toward[1], 0.0) * cosh;
                 let up = Vector3::z() * sinh;

@@ -35,7 +35,7 @@ pub fn find_down_flooding_points(model: &Model, body: &Body) -> Vec<DownFlooding
         let point = model.points.get(&Model::key(hole.point.as_ref()?))?;
         let part = model.parts.get(&Model::key(&point.part))?;
         let own = Model::key(&part.body) == Model::key(&body.name);
-        let at = Vector3::from(part.place.apply(point.at));
+        let at = Vector3::from(part.position.apply(point.at));
         own.then(|| DownFloodingPoint { name: hole.name.clone(), at, is_weathertight })
     };
     model.holes.values().filter_map(found).collect()

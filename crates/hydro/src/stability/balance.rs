@@ -40,15 +40,15 @@ pub struct Attitude {
 
 impl Attitude {
     /// That of a place, with the body's x axis as roll axis.
-    pub fn from_place(place: &Place) -> Self {
-        let [roll, trim, heading] = place.turn;
-        Attitude { origin: place.shift, roll, trim, heading, axis: 0.0 }
+    pub fn from_place(position: &Place) -> Self {
+        let [roll, trim, heading] = position.turn;
+        Attitude { origin: position.shift, roll, trim, heading, axis: 0.0 }
     }
 
     /// The pose of the body.
     pub fn pose(&self) -> Pose {
-        let place = Place { shift: self.origin, turn: [self.roll, self.trim, self.heading + self.axis] };
-        let mut pose = Pose::from_place(&place);
+        let position = Place { shift: self.origin, turn: [self.roll, self.trim, self.heading + self.axis] };
+        let mut pose = Pose::from_place(&position);
         if self.axis != 0.0 {
             let skew = Place { shift: [0.0; 3], turn: [0.0, 0.0, -self.axis] };
             pose.axes *= skew.rotation().matrix();
@@ -57,10 +57,10 @@ impl Attitude {
     }
 
     /// The place of the body.
-    pub fn place(&self) -> Place {
+    pub fn position(&self) -> Place {
         let [x, y, z] = self.origin;
         let plain = Place::new([x, y, z, self.roll, self.trim, self.heading]);
-        if self.axis == 0.0 { plain } else { self.pose().place(&plain) }
+        if self.axis == 0.0 { plain } else { self.pose().position(&plain) }
     }
 
     /// The roll axis, and the level axis across it about which the body trims (global).

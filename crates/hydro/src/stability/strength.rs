@@ -116,7 +116,7 @@ pub fn find_strength(
     still: &StillBody,
     intervals: usize,
 ) -> Result<LongitudinalStrength, ClassError> {
-    let attitude = Attitude::from_place(&body.place);
+    let attitude = Attitude::from_place(&body.position);
     let Some([low, high]) = still.reach(&attitude) else {
         return Err(ClassError::new(format!("{} has no hull to bend", body.name))
             .help("PGEN, &SURFACE and &DESCRIBE PIECE give one"));
@@ -126,13 +126,14 @@ pub fn find_strength(
     let mut weights = Vec::new();
     let pose = attitude.pose();
     let ahead = attitude.ahead();
-    let place =
-        |part: &windlass_model::Part, at: [f64; 3]| ahead.dot(&(pose.axes * Vector3::from(part.place.apply(at))).xy());
+    let position = |part: &windlass_model::Part, at: [f64; 3]| {
+        ahead.dot(&(pose.axes * Vector3::from(part.position.apply(at))).xy())
+    };
     for part in model.parts_of(body) {
         for weight in part.weights.iter().filter(|w| w.weight * w.multiplier != 0.0) {
-            let (force, at) = (-weight.weight * weight.multiplier, place(part, weight.at));
+            let (force, at) = (-weight.weight * weight.multiplier, position(part, weight.at));
             let [_, y, z] = weight.at;
-            let ends = weight.spread.map(|spread| spread.map(|x| place(part, [x, y, z])));
+            let ends = weight.spread.map(|spread| spread.map(|x| position(part, [x, y, z])));
             weights.push(match ends {
                 Some([a, b]) if (a - b).abs() > 1e-9 * length => {
                     LoadAlong::Trapezoid { force, at, between: [a.min(b), a.max(b)] }

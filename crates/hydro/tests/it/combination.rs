@@ -11,13 +11,13 @@ fn block(low: [f64; 3], high: [f64; 3]) -> Surface {
 /// A sphere of triangles between its parallels and meridians, with its corners on it.
 fn sphere(centre: Vector3<f64>, radius: f64, parallels: u32) -> Surface {
     let meridians = 2 * parallels;
-    let place = |i: u32, j: u32| {
+    let position = |i: u32, j: u32| {
         let (sin_polar, cos_polar) = (PI * f64::from(i) / f64::from(parallels)).sin_cos();
         let (sin, cos) = (TAU * f64::from(j) / f64::from(meridians)).sin_cos();
         centre + Vector3::new(sin_polar * cos, sin_polar * sin, cos_polar) * radius
     };
     let mut vertices = vec![centre + Vector3::z() * radius, centre - Vector3::z() * radius];
-    vertices.extend((1..parallels).flat_map(|i| (0..meridians).map(move |j| place(i, j))));
+    vertices.extend((1..parallels).flat_map(|i| (0..meridians).map(move |j| position(i, j))));
     let at = |i: u32, j: u32| match i {
         0 => 0,
         i if i == parallels => 1,

@@ -460,8 +460,8 @@ proptest! {
     ) {
         let mut bytes = bytes(if classic { "classic.nc" } else { "hemisphere.nc" });
         let most = if head { bytes.len().min(6000) } else { bytes.len() };
-        for (place, value) in changes {
-            let at = (place * most as f64) as usize;
+        for (position, value) in changes {
+            let at = (position * most as f64) as usize;
             bytes[at] = value;
         }
         let _ = capytaine::read("c", &bytes, None);

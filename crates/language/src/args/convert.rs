@@ -106,8 +106,8 @@ pub(super) fn convert(
         None
     };
     if let Some(spec) = missing {
-        let place = values.last().map_or(at, |v| v.span);
-        return Err(Diagnostic::error(format!("{owner} lacks its value {}", spec.name), place).label(format!(
+        let position = values.last().map_or(at, |v| v.span);
+        return Err(Diagnostic::error(format!("{owner} lacks its value {}", spec.name), position).label(format!(
             "expected {} after this: {}",
             describe_expected(spec.kind, units),
             spec.help

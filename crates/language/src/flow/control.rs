@@ -148,8 +148,8 @@ impl Interpreter {
 
     /// A header whose macro can be called, with a warning where a command of some menus has its name.
     fn callable(&self, header: Macro, world: &dyn FunctionHost) -> Outcome<(Macro, Outcome<()>)> {
-        let taken = |command: &str, place: &str| {
-            Diagnostic::error(format!("macro {} cannot be called{place}", header.name), header.span)
+        let taken = |command: &str, position: &str| {
+            Diagnostic::error(format!("macro {} cannot be called{position}", header.name), header.span)
                 .label(format!("this is the command {command}"))
         };
         if let Some(control) =

@@ -195,7 +195,7 @@ impl Interpreter {
         let mut lines: Vec<String> = calls
             .iter()
             .take(3)
-            .map(|(name, called)| format!("in macro {name}, called at {}", self.sources.place(*called)))
+            .map(|(name, called)| format!("in macro {name}, called at {}", self.sources.location(*called)))
             .collect();
         if calls.len() > 3 {
             lines.push(format!("and {} calls further out", calls.len() - 3));

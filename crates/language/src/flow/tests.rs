@@ -102,7 +102,7 @@ fn wrong_loop_bound_is_the_error_position() {
         interpreter.open("t.cif", format!("{header}\n&ENDLOOP\n"), 0, None).unwrap();
         let error = interpreter.next_step(&mut NoFunctions).unwrap_err();
         assert_eq!(error.message, message);
-        assert_eq!(interpreter.sources.place(error.span.unwrap()), format!("t.cif:1:{column}"));
+        assert_eq!(interpreter.sources.location(error.span.unwrap()), format!("t.cif:1:{column}"));
     }
 }
 

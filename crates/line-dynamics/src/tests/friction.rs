@@ -98,14 +98,14 @@ fn dragged_line_keeps_position_and_friction_tension() {
     // pulled by less than all of its friction at the other end it stays
     let forces = [(0, Vector3::x() * (-0.5 * whole))];
     let pulled = LineEnvironment { forces: &forces, ..world };
-    let places: Vec<f64> = (1..=1000)
+    let positions: Vec<f64> = (1..=1000)
         .map(|i| {
             solver.step(&rod, &mut state, &pulled, 60.0 + i as f64 * 0.1, at(4.0, 0.0, 0.0)).unwrap();
             state.position[0].x
         })
         .collect();
-    println!("{} {} {}", left, places[499], places[999]);
-    assert!((places[999] - places[499]).abs() < 1e-6, "{left} {} {}", places[499], places[999]);
+    println!("{} {} {}", left, positions[499], positions[999]);
+    assert!((positions[999] - positions[499]).abs() < 1e-6, "{left} {} {}", positions[499], positions[999]);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use windlass_model::SchemeWeights;
 /// Each pushes by stiffness times depth, which grows from zero over the first `soft`, with damping, and never pulls.
 #[derive(Clone, Copy, Debug)]
 struct Cradle {
-    place: Vector3<f64>,
+    position: Vector3<f64>,
     velocity: Vector3<f64>,
     axes: [Vector3<f64>; 3],
     half_width: f64,
@@ -32,7 +32,7 @@ impl Cradle {
 
     fn support(&self) -> Support<'_> {
         let holds = SupportTarget::Crossing(self.axes[0]);
-        Support { position: self.place, velocity: self.velocity, target: holds, law: self }
+        Support { position: self.position, velocity: self.velocity, target: holds, law: self }
     }
 }
 
@@ -73,7 +73,7 @@ fn supports(cradles: &[Cradle]) -> Vec<Support<'_>> {
 /// A roller at x under a rod that runs along x.
 fn plain(x: f64, stiffness: f64) -> Cradle {
     Cradle {
-        place: Vector3::new(x, 0.0, 0.0),
+        position: Vector3::new(x, 0.0, 0.0),
         velocity: Vector3::zeros(),
         axes: [Vector3::x(), Vector3::y(), Vector3::z()],
         half_width: f64::INFINITY,
@@ -194,18 +194,18 @@ fn cradle_holds_pipe_by_force_balance_of_faces() {
     let load = Vector3::new(0.0, 300.0, -1000.0);
     // a V of 90 degrees: N1 + N2 = W / sin 45, N1 - N2 = H / cos 45
     let vee = Cradle { half_width: 0.0, opening: std::f64::consts::FRAC_PI_2, ..plain(0.0, 1e5) };
-    let (place, result) = lying(vee, load);
+    let (position, result) = lying(vee, load);
     // the rope, taut by 1e7 (d / 100)^2 / 2, bears a hundred-thousandth
     assert!((result.force - load).norm() < 1e-3 * load.norm(), "{result:?}");
     // depth of each face N / k: z = -(N1 + N2) sin / (2 k sin^2) and y = (N1 - N2) cos / (2 k cos^2)
-    assert!((place.z + 1000.0 / 1e5).abs() < 1e-5 && (place.y - 300.0 / 1e5).abs() < 1e-5, "{place}");
+    assert!((position.z + 1000.0 / 1e5).abs() < 1e-5 && (position.y - 300.0 / 1e5).abs() < 1e-5, "{position}");
     // a U: the floor bears the weight, the flank at 0.2 m the side load
-    let (place, _) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, load);
-    assert!((place.z + 0.01).abs() < 2e-4 && (place.y - 0.203).abs() < 2e-4, "{place}");
+    let (position, _) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, load);
+    assert!((position.z + 0.01).abs() < 2e-4 && (position.y - 0.203).abs() < 2e-4, "{position}");
     // lifted: nothing acts
-    let (place, result) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
+    let (position, result) = lying(Cradle { half_width: 0.2, ..plain(0.0, 1e5) }, Vector3::z() * 2.0);
     assert_eq!(result.force, Vector3::zeros());
-    assert!(place.z > 0.0, "{place}");
+    assert!(position.z > 0.0, "{position}");
     // a rod that ends before it
     let (_, result) = lying(plain(300.0, 1e5), load * 1e-3);
     assert_eq!((result.force, result.arc), (Vector3::zeros(), None));
@@ -220,7 +220,7 @@ fn energy_balance_of_drop(h: f64) -> RodEnergyBalance {
     let w = 0.9;
     let rollers = |t: f64| {
         [12.3, 30.0].map(|x| Cradle {
-            place: Vector3::new(x, 0.0, -0.4 + 0.2 * (w * t).sin()),
+            position: Vector3::new(x, 0.0, -0.4 + 0.2 * (w * t).sin()),
             velocity: Vector3::z() * (0.2 * w * (w * t).cos()),
             damping: 2e3,
             soft: 0.05,
@@ -284,9 +284,9 @@ fn rod_on_rollers_tangent_matches_finite_difference() {
     let axes = [Vector3::x(), Vector3::y(), Vector3::z()].map(|a| tilted * a);
     let base = Cradle { axes, velocity: Vector3::new(0.3, -0.4, 0.2), damping: 2e3, ..plain(0.0, 4e4) };
     let rollers = [
-        Cradle { place: Vector3::new(5.0, 0.4, 0.6), half_width: 0.0, opening: 1.7, ..base },
-        Cradle { place: Vector3::new(10.0, 1.5, 0.9), half_width: 0.1, opening: 0.3, soft: 0.02, ..base },
-        Cradle { place: Vector3::new(15.0, 1.2, 0.9), soft: 5.0, ..base },
+        Cradle { position: Vector3::new(5.0, 0.4, 0.6), half_width: 0.0, opening: 1.7, ..base },
+        Cradle { position: Vector3::new(10.0, 1.5, 0.9), half_width: 0.1, opening: 0.3, soft: 0.02, ..base },
+        Cradle { position: Vector3::new(15.0, 1.2, 0.9), soft: 5.0, ..base },
     ];
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &supports(&rollers), ..LineEnvironment::new(&fluid, 9.81) };
@@ -317,14 +317,14 @@ impl SupportLaw for Sling {
 fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) {
     let segment = RodSegment { bending: 1e4, compression: true, ..RodSegment::line(30.0, 30, 30.0, 1e6, 0.3) };
     let rod = Rod::new("pipe", vec![segment], vec![]).unwrap();
-    let placed = |i: usize, place: Vector3<f64>| place + Vector3::from_row_slice(&motion[i][..3]);
+    let placed = |i: usize, position: Vector3<f64>| position + Vector3::from_row_slice(&motion[i][..3]);
     let turned = |i: usize, tilt: f64| {
         let turn = Rotation3::from_scaled_axis(Vector3::from_row_slice(&motion[i][3..]));
         let axes = Rotation3::from_axis_angle(&Vector3::y_axis(), tilt);
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|a| turn * (axes * a))
     };
     let cradle = |i: usize, x: f64, tilt: f64| Cradle {
-        place: placed(i, Vector3::new(x, 0.1, 0.2)),
+        position: placed(i, Vector3::new(x, 0.1, 0.2)),
         axes: turned(i, tilt),
         half_width: 0.0,
         opening: 1.5,
@@ -333,8 +333,8 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let cradles = [cradle(0, 10.2, 0.0), cradle(1, 20.4, -0.15)];
     let sling = Sling(2e4);
     let mut held = supports(&cradles);
-    let place = placed(2, Vector3::new(-0.5, 0.3, 0.4));
-    held.push(Support { position: place, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
+    let position = placed(2, Vector3::new(-0.5, 0.3, 0.4));
+    held.push(Support { position: position, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &held, ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));

@@ -71,8 +71,8 @@ fn smooth_bathymetry_converges_with_third_order() {
     // Bessel's slopes are off by h^2 z'''/6 at most, and so the surface by h^3 between the points [DEBOOR-1978 IV]
     let height = |x: f64, y: f64| (x / 50.0).sin() + (y / 40.0).cos() * (x / 80.0).cos();
     let error = |count: u32| {
-        let places: Vec<f64> = (0..=count).map(|i| 200.0 * f64::from(i) / f64::from(count)).collect();
-        let bottom = bathymetry(&places, &places, height);
+        let positions: Vec<f64> = (0..=count).map(|i| 200.0 * f64::from(i) / f64::from(count)).collect();
+        let bottom = bathymetry(&positions, &positions, height);
         let off = |i: u32| {
             let at = (200.0 * (f64::from(i) * 0.618_034).fract(), 200.0 * (f64::from(i) * 0.754_878).fract());
             (bottom.elevation_and_slopes(at.0, at.1).0 - height(at.0, at.1)).abs()

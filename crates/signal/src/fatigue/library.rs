@@ -164,13 +164,13 @@ mod tests {
         let mut count = 0;
         for line in table.lines().skip(1) {
             let f: Vec<&str> = line.split(',').collect();
-            let place = match (f[1], f[2]) {
+            let position = match (f[1], f[2]) {
                 ("FALSE", _) => "AIR",
                 (_, "TRUE") => "CP",
                 _ => "FREE",
             };
             let number = |i: usize| f[i].parse::<f64>().unwrap();
-            let name = format!("DNV_{}_{place}", f[0]);
+            let name = format!("DNV_{}_{position}", f[0]);
             let shipped = library().curves.iter().find(|c| c.is_called(&name)).unwrap();
             let factor = (number(3).max(25.0) / 25.0).powf(shipped.thickness_exponent);
             let found = shipped.curve().cycles(number(4) * factor, 0.0).unwrap();

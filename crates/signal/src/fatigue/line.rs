@@ -60,7 +60,7 @@ pub fn line_damage(segments: &[Loaded], thickness: Option<&ThicknessCorrection>)
     for (index, loaded) in segments.iter().enumerate() {
         made.push(segment_damage(index + 1, loaded, thickness)?);
     }
-    let place = |of: &dyn Fn(&SegmentDamage) -> f64| {
+    let position = |of: &dyn Fn(&SegmentDamage) -> f64| {
         let mut best = (0, f64::MIN);
         for (index, segment) in made.iter().enumerate() {
             if of(segment) > best.1 {
@@ -69,15 +69,15 @@ pub fn line_damage(segments: &[Loaded], thickness: Option<&ThicknessCorrection>)
         }
         best.0
     };
-    let critical = place(&|s| s.most_used);
+    let critical = position(&|s| s.most_used);
     let Some(kind) = segments.get(critical).map(|s| s.curve.kind) else {
         return Err(SeriesError::TooFew { what: "fatigue of a line with segments", need: 1, got: 0 });
     };
     let governing = match kind {
         FatigueKind::Tension => critical,
-        FatigueKind::Stress => place(&|s| s.largest_stress),
+        FatigueKind::Stress => position(&|s| s.largest_stress),
     };
-    let worst = place(&|s| s.damage);
+    let worst = position(&|s| s.damage);
     Ok(LineDamage { segments: made, governing, worst })
 }
 

@@ -40,17 +40,17 @@ impl Envelope {
     /// # Errors
     /// An infinite sample; those before it are taken.
     pub fn take(&mut self, time: f64, samples: impl IntoIterator<Item = f64>) -> Result<(), SeriesError> {
-        for (place, value) in samples.into_iter().enumerate() {
-            if self.tracks.len() <= place {
-                self.tracks.resize(place + 1, None);
+        for (position, value) in samples.into_iter().enumerate() {
+            if self.tracks.len() <= position {
+                self.tracks.resize(position + 1, None);
             }
             if value.is_nan() {
                 continue;
             }
             if value.is_infinite() {
-                return Err(SeriesError::NotFinite { row: place + 1 });
+                return Err(SeriesError::NotFinite { row: position + 1 });
             }
-            let Some(track) = self.tracks.get_mut(place) else { continue };
+            let Some(track) = self.tracks.get_mut(position) else { continue };
             let now = Peak { time, value };
             match track {
                 None => *track = Some(Track { count: 1, mean: value, squares: 0.0, least: now, most: now }),
@@ -72,8 +72,8 @@ impl Envelope {
     }
 
     /// What was seen of a quantity by its place; none where it never was there.
-    pub fn extremes(&self, place: usize) -> Option<EnvelopeValue> {
-        let Track { count, mean, squares, least, most } = *self.tracks.get(place)?.as_ref()?;
+    pub fn extremes(&self, position: usize) -> Option<EnvelopeValue> {
+        let Track { count, mean, squares, least, most } = *self.tracks.get(position)?.as_ref()?;
         Some(EnvelopeValue { count, mean, deviation: (squares / count as f64).max(0.0).sqrt(), least, most })
     }
 }
@@ -90,9 +90,9 @@ mod tests {
         for i in 0..200 {
             envelope.take(f64::from(i), [wave(i, 0.3), wave(i, 0.7)]).unwrap();
         }
-        for (place, k) in [0.3, 0.7].into_iter().enumerate() {
+        for (position, k) in [0.3, 0.7].into_iter().enumerate() {
             let series: Vec<f64> = (0..200).map(|i| wave(i, k)).collect();
-            let (want, found) = (statistics::moments(&series).unwrap(), envelope.extremes(place).unwrap());
+            let (want, found) = (statistics::moments(&series).unwrap(), envelope.extremes(position).unwrap());
             assert!((found.mean - want.mean).abs() < 1e-8 && (found.deviation - want.deviation).abs() < 1e-8);
             assert_eq!(found.most.value, want.maximum.1);
             assert_eq!(found.count, 200);

@@ -92,7 +92,7 @@ pub fn rainflow(record: &SeriesRecord, bins: usize, means: usize) -> Result<Tabl
                 rows.push([range, range + counted.range_width, mean, mean + counted.mean_width, *cycles]);
             }
         }
-        let of = |place: usize| numbers(rows.iter().filter_map(|r| r.get(place).copied()));
+        let of = |position: usize| numbers(rows.iter().filter_map(|r| r.get(position).copied()));
         add("Range from", dim, SIX_DIGITS, of(0));
         add("Range to", dim, SIX_DIGITS, of(1));
         if means > 1 {

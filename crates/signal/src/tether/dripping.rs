@@ -22,7 +22,7 @@ fn ranges(points: &[f64]) -> Vec<f64> {
     let mut drips = vec![false; points.len()];
     let mut out = Vec::with_capacity(points.len().saturating_sub(1));
     for start in 0..points.len().saturating_sub(1) {
-        let at = |place: usize| points.get(place).copied();
+        let at = |position: usize| points.get(position).copied();
         let (Some(from), Some(next)) = (at(start), at(start + 1)) else { break };
         let before = start.checked_sub(1);
         if before.and_then(|b| drips.get(b)).copied().unwrap_or(false) {

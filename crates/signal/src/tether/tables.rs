@@ -37,31 +37,31 @@ pub struct NodeSeries<'a> {
     pub channels: Vec<Channel<'a>>,
 }
 
-fn of_place(place: &NodeSeries) -> Result<Vec<GlobalStatistics>, SeriesError> {
-    place.channels.iter().map(|channel| global(channel.values)).collect()
+fn of_place(position: &NodeSeries) -> Result<Vec<GlobalStatistics>, SeriesError> {
+    position.channels.iter().map(|channel| global(channel.values)).collect()
 }
 
 /// The same with zeros for what is rounding beside the largest of its group and dimension.
-fn quiet(mut places: Vec<Vec<GlobalStatistics>>, channels: &[Channel]) -> Vec<Vec<GlobalStatistics>> {
+fn quiet(mut positions: Vec<Vec<GlobalStatistics>>, channels: &[Channel]) -> Vec<Vec<GlobalStatistics>> {
     let alike = |one: &Channel, other: &Channel| one.group == other.group && one.dim == other.dim;
     let largest: Vec<f64> = channels
         .iter()
         .map(|channel| {
-            let of_place = |place: &Vec<GlobalStatistics>| -> f64 {
-                let same = place.iter().zip(channels).filter(|(_, other)| alike(channel, other));
+            let of_place = |position: &Vec<GlobalStatistics>| -> f64 {
+                let same = position.iter().zip(channels).filter(|(_, other)| alike(channel, other));
                 same.fold(0.0, |most: f64, (of, _)| most.max(of.mean.abs()).max(of.significant))
             };
-            places.iter().map(of_place).fold(0.0, f64::max)
+            positions.iter().map(of_place).fold(0.0, f64::max)
         })
         .collect();
-    for of in places.iter_mut().flat_map(|place| place.iter_mut().zip(&largest)) {
+    for of in positions.iter_mut().flat_map(|position| position.iter_mut().zip(&largest)) {
         let (of, largest) = of;
         let numbers = [&mut of.mean, &mut of.significant, &mut of.highest_third, &mut of.lowest_third];
         for value in numbers.into_iter().chain(&mut of.maxima).chain(&mut of.minima) {
             *value = without_noise(*value, *largest);
         }
     }
-    places
+    positions
 }
 
 /// The column of a channel.
@@ -90,13 +90,13 @@ const TABLE_ROWS: [StatisticRow; 10] = [
 ///
 /// # Errors
 /// As [`global`].
-pub fn type_one(title: &str, place: &NodeSeries) -> Result<Table, SeriesError> {
-    let found = quiet(vec![of_place(place)?], &place.channels).pop().unwrap_or_default();
+pub fn type_one(title: &str, position: &NodeSeries) -> Result<Table, SeriesError> {
+    let found = quiet(vec![of_place(position)?], &position.channels).pop().unwrap_or_default();
     let mut columns = vec![Column::new("", "", Dim::None, Digits::Usual, TABLE_ROWS.map(|(label, _)| label))];
-    for (channel, of) in place.channels.iter().zip(&found) {
+    for (channel, of) in position.channels.iter().zip(&found) {
         columns.push(channel_column(channel, TABLE_ROWS.map(|(_, value)| value(of))));
     }
-    Ok(Table::from_columns(title, columns).fact("DISTANCE", place.distance, Dim::Length))
+    Ok(Table::from_columns(title, columns).fact("DISTANCE", position.distance, Dim::Length))
 }
 
 /// The pages of the statistics of type 2, in their order.
@@ -112,24 +112,24 @@ pub const PAGES: [StatisticRow; 4] = [
 ///
 /// # Errors
 /// As [`global`].
-pub fn type_two(title: &str, what: &str, places: &[NodeSeries]) -> Result<Vec<Table>, SeriesError> {
-    let channels = places.first().map_or(&[][..], |place| &place.channels);
-    let found = quiet(places.iter().map(of_place).collect::<Result<Vec<_>, _>>()?, channels);
+pub fn type_two(title: &str, what: &str, positions: &[NodeSeries]) -> Result<Vec<Table>, SeriesError> {
+    let channels = positions.first().map_or(&[][..], |position| &position.channels);
+    let found = quiet(positions.iter().map(of_place).collect::<Result<Vec<_>, _>>()?, channels);
     let page = |(index, (name, value)): (usize, &StatisticRow)| {
         let last = match index {
             0 => "MEAN",
             3 => "MINIMUM",
             _ => "MAXIMUM",
         };
-        let mut numbers: Vec<Cell> = places.iter().map(|p| Cell::Integer(p.number as i64)).collect();
+        let mut numbers: Vec<Cell> = positions.iter().map(|p| Cell::Integer(p.number as i64)).collect();
         numbers.push(Cell::Text(last.into()));
-        let mut distances: Vec<Cell> = places.iter().map(|p| Cell::Number(p.distance)).collect();
+        let mut distances: Vec<Cell> = positions.iter().map(|p| Cell::Number(p.distance)).collect();
         distances.push(Cell::Missing);
         let mut columns = vec![
             Column::new("", what, Dim::None, Digits::Usual, numbers),
             Column::new("", "DISTNCE", Dim::Length, Digits::Decimals(2), distances),
         ];
-        for (at, channel) in places.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
+        for (at, channel) in positions.first().map_or(&[][..], |p| &p.channels).iter().enumerate() {
             let values: Vec<f64> = found.iter().map(|of| of.get(at).map_or(f64::NAN, value)).collect();
             let summary = match index {
                 0 => values.iter().sum::<f64>() / values.len() as f64,

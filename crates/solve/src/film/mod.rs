@@ -115,12 +115,12 @@ impl Film {
                 return Err(ClassError::new("interrupted"));
             }
             for (body, (_, key)) in layout.bodies.iter().enumerate() {
-                let Some(place) = body_place(row, layout.body(body)) else { continue };
+                let Some(position) = body_place(row, layout.body(body)) else { continue };
                 if let Some(body) = model.bodies.get_mut(key) {
-                    body.place = place;
+                    body.position = position;
                 }
                 if let Some(list) = poses.get_mut(body) {
-                    list.push(Pose::from_place(&place));
+                    list.push(Pose::from_place(&position));
                 }
             }
             for strand in &mut film.strands {
@@ -245,8 +245,8 @@ impl Film {
     }
 }
 
-fn span(places: impl Iterator<Item = Vector3<f64>>) -> [Vector3<f64>; 2] {
-    let found = places.fold(None, |found: Option<[Vector3<f64>; 2]>, at| {
+fn span(positions: impl Iterator<Item = Vector3<f64>>) -> [Vector3<f64>; 2] {
+    let found = positions.fold(None, |found: Option<[Vector3<f64>; 2]>, at| {
         let [low, high] = found.unwrap_or([at, at]);
         // a place that is no number must show: inf and sup would lose it
         let sound = at.iter().all(|c| c.is_finite());

@@ -24,8 +24,8 @@ impl FilmSolid {
         let mut made = FilmSolid::default();
         for part in model.parts_of(body) {
             for piece in &part.pieces {
-                let place = |at: Position| part.place.apply(at);
-                made.add(&piece.shape, &place);
+                let position = |at: Position| part.position.apply(at);
+                made.add(&piece.shape, &position);
             }
         }
         if made.triangles.is_empty() { FilmSolid::bounding_box(model, body, least) } else { made }
@@ -33,16 +33,16 @@ impl FilmSolid {
 
     /// A box about the points and pieces of a body, no side shorter than `least` (m).
     pub fn bounding_box(model: &Model, body: &Body, least: f64) -> FilmSolid {
-        let mut places: Vec<Vector3<f64>> = Vec::new();
+        let mut positions: Vec<Vector3<f64>> = Vec::new();
         for part in model.parts_of(body) {
             let key = Model::key(&part.name);
             let own = model.points.values().filter(|p| Model::key(&p.part) == key);
-            places.extend(own.map(|p| Vector3::from(part.place.apply(p.at))));
+            positions.extend(own.map(|p| Vector3::from(part.position.apply(p.at))));
             let corners = part.pieces.iter().flat_map(|p| corners_and_edges(&p.shape).0);
-            places.extend(corners.map(|at| Vector3::from(part.place.apply(at))));
+            positions.extend(corners.map(|at| Vector3::from(part.position.apply(at))));
         }
-        let first = places.first().copied().unwrap_or_default();
-        let (low, high) = places.iter().fold((first, first), |(low, high), at| (low.inf(at), high.sup(at)));
+        let first = positions.first().copied().unwrap_or_default();
+        let (low, high) = positions.iter().fold((first, first), |(low, high), at| (low.inf(at), high.sup(at)));
         let middle = (low + high) * 0.5;
         let half = ((high - low) * 0.5).map(|h| h.max(0.5 * least));
         let mut made = FilmSolid { stands_for: true, ..FilmSolid::default() };
@@ -51,12 +51,12 @@ impl FilmSolid {
     }
 
     /// Adds a shape, each of its places taken through `place`.
-    fn add(&mut self, shape: &Shape, place: &dyn Fn(Position) -> Position) {
+    fn add(&mut self, shape: &Shape, position: &dyn Fn(Position) -> Position) {
         let (corners, edges) = corners_and_edges(shape);
         match shape {
-            Shape::Panels(panels) => self.panels(panels, place),
-            Shape::Block { low, high } => self.panels(&box_panels(*low, *high), place),
-            Shape::Bar { ends, sides } => self.panels(&bar_panels(ends, sides), place),
+            Shape::Panels(panels) => self.panels(panels, position),
+            Shape::Block { low, high } => self.panels(&box_panels(*low, *high), position),
+            Shape::Bar { ends, sides } => self.panels(&bar_panels(ends, sides), position),
             Shape::Tube { .. } => {
                 // both rings one behind the other, as the outline has them
                 let count = corners.len() / 2;
@@ -68,19 +68,19 @@ impl FilmSolid {
                 }
                 panels.push((0..count).rev().filter_map(at).collect());
                 panels.push((count..2 * count).filter_map(at).collect());
-                self.panels(&panels, place);
+                self.panels(&panels, position);
             }
         }
         for edge in edges {
-            let [a, b] = edge.map(|at| self.point(place(at)));
+            let [a, b] = edge.map(|at| self.point(position(at)));
             self.edges.push([a, b]);
         }
     }
 
     /// Polygons as fans of triangles.
-    fn panels(&mut self, panels: &[Vec<Position>], place: &dyn Fn(Position) -> Position) {
+    fn panels(&mut self, panels: &[Vec<Position>], position: &dyn Fn(Position) -> Position) {
         for panel in panels {
-            let numbers: Vec<u32> = panel.iter().map(|at| self.point(place(*at))).collect();
+            let numbers: Vec<u32> = panel.iter().map(|at| self.point(position(*at))).collect();
             if let Some((first, rest)) = numbers.split_first() {
                 self.triangles.extend(rest.windows(2).filter_map(|pair| Some([*first, *pair.first()?, *pair.last()?])));
             }

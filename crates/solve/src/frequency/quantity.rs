@@ -36,7 +36,7 @@ pub struct LinearQuantity {
     /// Its value at rest.
     pub mean: f64,
     /// Its change with the motions, six a body.
-    place: DVector<f64>,
+    position: DVector<f64>,
     /// Its change with the velocities.
     rate: DVector<f64>,
     /// Its change with the accelerations.
@@ -51,8 +51,8 @@ impl LinearQuantity {
     /// A degree of freedom of the origin of a body.
     pub fn dof(linear: &LinearSystem, body: usize, dof: usize) -> Self {
         let size = 6 * linear.system.nodes.len();
-        let place = DVector::from_fn(size, |i, _| if i == 6 * body + dof { 1.0 } else { 0.0 });
-        LinearQuantity { mean: 0.0, place, rate: DVector::zeros(size), second: DVector::zeros(size) }
+        let position = DVector::from_fn(size, |i, _| if i == 6 * body + dof { 1.0 } else { 0.0 });
+        LinearQuantity { mean: 0.0, position, rate: DVector::zeros(size), second: DVector::zeros(size) }
     }
 
     /// The three coordinates of a point of a body, given in the body (m).
@@ -64,7 +64,7 @@ impl LinearQuantity {
             // axis . (turn x arm) = turn . (arm x axis)
             let turn = arm.cross(&axis);
             let six = [axis.x, axis.y, axis.z, turn.x, turn.y, turn.z];
-            six.into_iter().enumerate().for_each(|(i, v)| made.place[6 * body + i] = v);
+            six.into_iter().enumerate().for_each(|(i, v)| made.position[6 * body + i] = v);
             made
         })
     }
@@ -73,7 +73,7 @@ impl LinearQuantity {
     pub fn minus(self, other: &LinearQuantity) -> Self {
         LinearQuantity {
             mean: self.mean - other.mean,
-            place: self.place - &other.place,
+            position: self.position - &other.position,
             rate: self.rate - &other.rate,
             second: self.second - &other.second,
         }
@@ -95,17 +95,17 @@ impl LinearQuantity {
         let zeros = || DVector::zeros(size);
         std::array::from_fn(|i| {
             let axis: Vector3<f64> = axes.column(i % 3).into_owned();
-            let mut made = LinearQuantity { mean: 0.0, place: zeros(), rate: zeros(), second: zeros() };
+            let mut made = LinearQuantity { mean: 0.0, position: zeros(), rate: zeros(), second: zeros() };
             if i < 3 {
                 // axis . mass (gravity - acceleration); along the axes of the body gravity changes by -(turn x gravity)
                 made.mean = -weight * axis.z;
                 for (component, own) in point.iter().zip(axis.iter()) {
-                    made.second -= &component.place * (mass * own);
+                    made.second -= &component.position * (mass * own);
                 }
                 let down = Vector3::new(0.0, 0.0, -weight);
                 // axis . (turn x down) = turn . (down x axis)
                 let change = down.cross(&axis);
-                (0..3).for_each(|k| made.place[6 * body + 3 + k] -= change[k]);
+                (0..3).for_each(|k| made.position[6 * body + 3 + k] -= change[k]);
             } else {
                 let inertia = mass * radii[i - 3] * radii[i - 3];
                 (0..3).for_each(|k| made.second[6 * body + 3 + k] -= inertia * axis[k]);
@@ -141,7 +141,7 @@ impl LinearQuantity {
         let wrench = rest.wrench[first];
         let mut made = [0, 1, 2].map(|i| LinearQuantity {
             mean: wrench[i],
-            place: DVector::zeros(size),
+            position: DVector::zeros(size),
             rate: DVector::zeros(size),
             second: DVector::zeros(size),
         });
@@ -153,7 +153,7 @@ impl LinearQuantity {
             let (stiffness, damping) = (block(&rest.stiffness), block(&under_way.damping));
             for (i, quantity) in made.iter_mut().enumerate() {
                 for k in 0..6 {
-                    quantity.place[6 * body + k] -= stiffness.map_or(0.0, |b| b[(i, k)]);
+                    quantity.position[6 * body + k] -= stiffness.map_or(0.0, |b| b[(i, k)]);
                     quantity.rate[6 * body + k] -= damping.map_or(0.0, |b| b[(i, k)]);
                 }
             }
@@ -167,7 +167,7 @@ impl LinearQuantity {
                 |part: fn(&LinearQuantity) -> &DVector<f64>| part(x) * unit.x + part(y) * unit.y + part(z) * unit.z;
             LinearQuantity {
                 mean: tension,
-                place: sum(|q| &q.place),
+                position: sum(|q| &q.position),
                 rate: sum(|q| &q.rate),
                 second: DVector::zeros(size),
             }
@@ -179,6 +179,7 @@ impl LinearQuantity {
     pub fn amplitude(&self, motions: &Motions, frequency: f64, derivative: Derivative) -> Complex<f64> {
         let rate = Complex::new(0.0, -frequency);
         let part = |by: &DVector<f64>| by.iter().zip(motions.iter()).map(|(a, q)| q * *a).sum::<Complex<f64>>();
-        (part(&self.place) + part(&self.rate) * rate + part(&self.second) * rate * rate) * rate.powi(derivative.order())
+        (part(&self.position) + part(&self.rate) * rate + part(&self.second) * rate * rate)
+            * rate.powi(derivative.order())
     }
 }

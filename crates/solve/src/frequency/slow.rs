@@ -54,9 +54,9 @@ pub(super) fn drift(
                 continue;
             }
             let mut force = Motions::zeros(6 * linear.system.nodes.len());
-            for (place, body) in drifting.iter().enumerate() {
+            for (position, body) in drifting.iter().enumerate() {
                 for i in 0..6 {
-                    force[6 * body + i] = vector[6 * place + i] * (value * width).sqrt();
+                    force[6 * body + i] = vector[6 * position + i] * (value * width).sqrt();
                 }
             }
             list.push(force);
@@ -99,13 +99,13 @@ fn forces(
                     continue;
                 }
                 let mut force = Motions::zeros(size);
-                for (place, body) in drifting.iter().enumerate() {
+                for (position, body) in drifting.iter().enumerate() {
                     let at = linear.poses[*body].origin;
                     let along = |angle: f64| at.x * angle.cos() + at.y * angle.sin();
                     let phase = Complex::from_polar(1.0, k_beside * along(*b) - k * along(*a));
-                    let (one, two) = (&one[place], &two[place]);
+                    let (one, two) = (&one[position], &two[position]);
                     for i in 0..6 {
-                        force[6 * place + i] = phase * (0.5 * (one[i] + two[i]));
+                        force[6 * position + i] = phase * (0.5 * (one[i] + two[i]));
                     }
                 }
                 sum += &force * force.adjoint() * Complex::new(weight, 0.0);

@@ -66,16 +66,16 @@ pub fn connector_forces(
         }
         settling.push(made);
     }
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     let mut table = EventTable::new("Connector Forces", (&run.history, events), |row| {
-        poses(layout, row, &mut places);
+        poses(layout, row, &mut positions);
         let mut list = Vec::new();
         for ((link, columns), settling) in chosen.iter().zip(&mut settling) {
             let acting = force(layout, *link, row);
             let length = row.get(columns.active + 1).copied().filter(|l| l.is_finite());
             let rest = match settling {
                 Some(settling) if acting.is_some() => {
-                    settling.solve_at(&places, length).map_err(|e| at_time(e, row))?
+                    settling.solve_at(&positions, length).map_err(|e| at_time(e, row))?
                 }
                 _ => SettledConnector::NONE,
             };
@@ -214,12 +214,12 @@ pub fn element_forces(run: &Run, links: &[usize], events: &[RunEvent]) -> Result
         };
         chosen.push((*link, columns, end_attachments(&run.model, connector)));
     }
-    let (mut places, several) = (Vec::new(), chosen.len() > 1);
+    let (mut positions, several) = (Vec::new(), chosen.len() > 1);
     let mut table = EventTable::new("Forces of Elements", (&run.history, events), |row| {
-        poses(layout, row, &mut places);
+        poses(layout, row, &mut positions);
         let of = |(link, columns, ends): &(usize, &LinkColumns, [EndAttachment; 2])| {
             let acts = row.get(columns.active).is_some_and(|a| *a > 0.0);
-            let [from, to] = [&ends[0], &ends[1]].map(|end| pose_of(end, &places).origin);
+            let [from, to] = [&ends[0], &ends[1]].map(|end| pose_of(end, &positions).origin);
             let axes = element_axes(&from, &to);
             [0, 1].map(|end| {
                 let mut wrench = [Vector3::zeros(); 2];

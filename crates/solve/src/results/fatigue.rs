@@ -102,11 +102,11 @@ fn tensions(
         let ends = end_attachments(&run.model, connector);
         let (placement, surroundings) = (run.model.placement(connector), run.model.surroundings());
         let active = layout.links.get(link).map_or(0, |l| l.active);
-        let mut places: Vec<Pose> = Vec::new();
+        let mut positions: Vec<Pose> = Vec::new();
         for event in turning_points(&top).filter_map(|at| events.get(at)) {
             let row = row(event);
-            poses(layout, row, &mut places);
-            let [fairlead, other] = ends.map(|end| pose_of(&end, &places).origin.into());
+            poses(layout, row, &mut positions);
+            let [fairlead, other] = ends.map(|end| pose_of(&end, &positions).origin.into());
             let other = placement.other.filter(|_| placement.anchored).or(Some(other));
             let first_length = row.get(active + 1).copied().filter(|l| l.is_finite()).or(placement.first_length);
             let here = Placement { fairlead, other, first_length, ..placement.clone() };

@@ -116,16 +116,16 @@ pub fn group_forces(
         })
     };
     let categories: Vec<Category> = Category::ALL.into_iter().filter(|category| own(*category)).collect();
-    let mut places = Vec::new();
+    let mut positions = Vec::new();
     let mut table = EventTable::new("Forces of Load Groups", (&run.history, events), |row| {
-        poses(layout, row, &mut places);
+        poses(layout, row, &mut positions);
         let time = row.first().copied().unwrap_or(0.0);
         let mut list = Vec::new();
         for group in &reported {
             let from = layout.body(group.body);
             let six = |at: usize| Six::from_iterator(row.iter().skip(at).copied().chain([0.0; 6]).take(6));
             let (velocity, acceleration) = (six(from + 6), six(from + 12));
-            let pose = places.get(group.body).copied().unwrap_or_default();
+            let pose = positions.get(group.body).copied().unwrap_or_default();
             let at = BodyStep { time, dt: 0.0, pose: &pose, velocity: &velocity };
             let mut sums = vec![Six::zeros(); categories.len() + 1];
             let mut add = |category: Category, wrench: Six| {

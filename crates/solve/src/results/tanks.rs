@@ -47,9 +47,9 @@ impl TrackedTank {
     fn state(&self, run: &Run, row: &[f64]) -> Result<TankState, SolveError> {
         let layout = &run.history.layout;
         let from = layout.body(self.body);
-        let mut place = [f64::NAN; 6];
-        place.iter_mut().zip(row.get(from..).unwrap_or_default()).for_each(|(value, stored)| *value = *stored);
-        let [x, y, z, roll, pitch, yaw] = place;
+        let mut position = [f64::NAN; 6];
+        position.iter_mut().zip(row.get(from..).unwrap_or_default()).for_each(|(value, stored)| *value = *stored);
+        let [x, y, z, roll, pitch, yaw] = position;
         let pose = Pose::from_place(&Place { shift: [x, y, z], turn: [roll, pitch, yaw] });
         let time = row.first().copied().unwrap_or(0.0);
         let failed = |e| SolveError::error_about(&self.name)(e);

@@ -86,14 +86,14 @@ impl MooredActions {
             fired: vec![None; list.len()],
             points,
             level: model.surroundings().tide,
-            near: body.place,
+            near: body.position,
         })
     }
 
     /// Does what is due in a state: `pose` is that of the body, `tensions` are those of the connectors (N). Whether a connector was released, or acts
     /// now.
     pub fn process(&mut self, (time, dt): (f64, f64), pose: &Pose, tensions: &[f64], links: &mut [MooredLink]) -> bool {
-        self.near = pose.place(&self.near);
+        self.near = pose.position(&self.near);
         let mut changed = false;
         for index in 0..self.list.len() {
             let waits = self.fired.get(index).is_some_and(Option::is_none);
@@ -169,9 +169,9 @@ impl MooredActions {
             return Some(numbers);
         }
         let (fired, rest) = numbers.split_at_checked(self.fired.len())?;
-        let (place, rest) = rest.split_at_checked(PLACE_NUMBERS)?;
+        let (position, rest) = rest.split_at_checked(PLACE_NUMBERS)?;
         self.fired = fired.iter().map(|time| (*time >= 0.0).then_some(*time)).collect();
-        let [x, y, z, roll, pitch, yaw] = *place else { return None };
+        let [x, y, z, roll, pitch, yaw] = *position else { return None };
         self.near = Place { shift: [x, y, z], turn: [roll, pitch, yaw] };
         Some(rest)
     }

@@ -69,7 +69,7 @@ pub struct TowingVessel {
     /// Name of the body.
     pub body: String,
     /// Place of its centre of gravity.
-    pub place: Place,
+    pub position: Place,
     /// Weight (N).
     pub weight: f64,
     /// The tether's end from the centre of gravity (m, global).
@@ -241,11 +241,11 @@ fn towing_vessel(model: &Model, connector: &Connector) -> Option<TowingVessel> {
     let body = model.body_of(model.points.get(&Model::key(connector.points.first()?))?)?;
     let gravity = model.defaults.gravity;
     let mass = Mass::from_parts(model.parts_of(body), gravity);
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let centre = pose.point(mass.centre);
     let [end, _] = model.end_poses(connector).map(|pose| pose.origin);
-    let place = Place { shift: centre.into(), turn: body.place.turn };
-    Some(TowingVessel { body: body.name.clone(), place, weight: mass.mass * gravity, arm: end - centre })
+    let position = Place { shift: centre.into(), turn: body.position.turn };
+    Some(TowingVessel { body: body.name.clone(), position, weight: mass.mass * gravity, arm: end - centre })
 }
 
 /// The body that all installed tethers hold.
@@ -302,14 +302,14 @@ pub(super) fn installed_tether(
 ) -> Result<InstalledTether, ClassError> {
     let ends: TetherEnds = connector.tether.clone().unwrap_or_default();
     let [fairlead, anchor] = model.end_poses(connector).map(|pose| pose.origin);
-    let attachment = Pose::from_place(&body.place).local(fairlead) - centre;
+    let attachment = Pose::from_place(&body.position).local(fairlead) - centre;
     let line = line(sections(model, connector))?;
     let mut springs = [EndSprings::default(); 2];
-    for ((into, given), place) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
+    for ((into, given), position) in springs.iter_mut().zip(ends.springs).zip(["vessel", "anchor"]) {
         let (made, taken) = EndSprings::from_card(given);
         *into = made;
         for taken in &taken {
-            let text = format!(", {place}: {}", taken.text());
+            let text = format!(", {position}: {}", taken.text());
             // one note for all tethers that have it
             match notes.iter_mut().find(|note| note.starts_with("tether ") && note.ends_with(&text)) {
                 Some(note) => note.insert_str(note.len() - text.len(), &format!(" {}", connector.name)),
@@ -347,7 +347,7 @@ fn tubes_alone(model: &Model, body: &Body, centre: Vector3<f64>) -> Option<Vec<T
         }
         for piece in &part.pieces {
             let (Some(member), Shape::Tube { ends, diameter }) =
-                (piece.member, piece.shape.with_displacement(&part.place))
+                (piece.member, piece.shape.with_displacement(&part.position))
             else {
                 return None;
             };
@@ -425,7 +425,7 @@ fn installed_case(
         }
     };
     let structure = Moored::build(structure, model, (body, centre), actions)?;
-    let pose = Pose::from_place(&body.place);
+    let pose = Pose::from_place(&body.position);
     let course = InstalledRunSettings {
         start: 0.0,
         step: settings.step,

@@ -211,11 +211,11 @@ pub(super) fn vessel_row(vessel: &TowingVessel, tether: &towed::Towed, [y, z]: [
     let mut row = vec![0.0; 6 * StructureHistory::KINDS.len()];
     let mut put = |name: &str, values: [f64; 6]| {
         let kind = StructureHistory::KINDS.iter().position(|kind| *kind == name);
-        if let Some(place) = kind.and_then(|kind| row.get_mut(6 * kind..6 * kind + 6)) {
-            place.copy_from_slice(&values);
+        if let Some(position) = kind.and_then(|kind| row.get_mut(6 * kind..6 * kind + 6)) {
+            position.copy_from_slice(&values);
         }
     };
-    put("POSITION", vessel.place.values());
+    put("POSITION", vessel.position.values());
     put("GRAVITY", [0.0, 0.0, -vessel.weight, 0.0, 0.0, 0.0]);
     put("HYDROSTATIC", [0.0, 0.0, vessel.weight, 0.0, 0.0, 0.0]);
     put("MOORING", [pull.x, pull.y, pull.z, turning.x, turning.y, turning.z]);

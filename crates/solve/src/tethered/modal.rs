@@ -149,7 +149,7 @@ pub fn natural(model: &Model, name: &str, number: usize, compatible: bool) -> Re
 /// The page of a mode.
 fn mode_page(mode: &ListedMode, order: usize, name: &str, towed: bool) -> Table {
     let four = Digits::Decimals(4);
-    let (place, displacement, [u, v, ru, rv]) = match towed {
+    let (position, displacement, [u, v, ru, rv]) = match towed {
         true => ("DISTANCE ALONG TETHER", "VERT/HORIZONTAL DISPLACEMENT", ["Y", "Z", "RY", "RZ"]),
         false => ("HEIGHT ABOVE ANCHOR", "LATERAL DISPLACEMENT", ["X", "Y", "RX", "RY"]),
     };
@@ -161,7 +161,7 @@ fn mode_page(mode: &ListedMode, order: usize, name: &str, towed: bool) -> Table 
         .fact_with_digits("PERIOD", mode.period, Dim::Time, Digits::Decimals(2))
         .with_rows(&nodes)
         .column("", "NODE", Dim::None, Digits::Usual, |(node, _)| node + 1)
-        .column("", place, Dim::Length, Digits::Decimals(2), |(_, (place, _))| *place)
+        .column("", position, Dim::Length, Digits::Decimals(2), |(_, (position, _))| *position)
         .columns(displacement, [u, v], Dim::None, four, |(_, (_, shape))| [shape[0], shape[1]])
         .columns("SLOPE", [ru, rv], Dim::Angle, four, |(_, (_, shape))| [shape[2], shape[3]])
         .build()

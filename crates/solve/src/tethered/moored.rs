@@ -117,14 +117,14 @@ impl Moored {
                 .ends
                 .iter()
                 .map(|end| {
-                    let place = pose_of(end, poses);
+                    let position = pose_of(end, poses);
                     let mut moves = Six::zeros();
                     if matches!(end, EndAttachment::Body(..)) {
-                        let own = velocity + spin.cross(&(place.origin - at.pose.origin));
+                        let own = velocity + spin.cross(&(position.origin - at.pose.origin));
                         moves.fixed_rows_mut::<3>(0).copy_from(&own);
                         moves.fixed_rows_mut::<3>(3).copy_from(&spin);
                     }
-                    End { velocity: moves, ..End::at_rest(place) }
+                    End { velocity: moves, ..End::at_rest(position) }
                 })
                 .collect();
             let situation = Situation { ends: &ends, step, surroundings: &self.surroundings };

@@ -194,14 +194,14 @@ impl Tethered {
 
     /// What happened so far, as numbers.
     fn event_numbers(&self) -> Vec<f64> {
-        let place = |name: &str| self.tethers.iter().position(|t| t.name == name).unwrap_or(0) as f64;
+        let position = |name: &str| self.tethers.iter().position(|t| t.name == name).unwrap_or(0) as f64;
         let numbers = |event: &TetherRunEvent| {
             let (kind, one, two) = match event.change {
                 RigChange::Slack => (0.0, 0.0, 0.0),
                 RigChange::Impact { velocity, stress } => (1.0, velocity, stress),
                 RigChange::LowerStop { drop } => (2.0, drop, 0.0),
             };
-            [event.time, place(&event.tether), kind, one, two]
+            [event.time, position(&event.tether), kind, one, two]
         };
         self.happened.iter().flat_map(numbers).collect()
     }
@@ -325,7 +325,7 @@ fn run_towed(
 
 struct InstalledKeeper<'a> {
     keeper: RunRecorder<'a>,
-    places: Vec<nalgebra::Vector3<f64>>,
+    positions: Vec<nalgebra::Vector3<f64>>,
     near: Place,
     /// What the engine needs to go on at the state that is shown next.
     last: Option<(usize, Vec<f64>)>,
@@ -353,7 +353,7 @@ impl InstalledObserver for InstalledKeeper<'_> {
             let name = kept.tethers.get(event.tether).map(|t| t.name.clone()).unwrap_or_default();
             kept.happened.push(TetherRunEvent { time: event.time, tether: name, change: event.change });
         }
-        self.near = moment.pose.place(&self.near);
+        self.near = moment.pose.position(&self.near);
         if !self.keeper.is_stored(moment.state) {
             return Ok(());
         }
@@ -367,8 +367,8 @@ impl InstalledObserver for InstalledKeeper<'_> {
             row.extend(kind.iter());
         }
         row.extend(moment.error.iter());
-        for place in &self.places {
-            row.extend(moment.pose.point(*place).iter());
+        for position in &self.positions {
+            row.extend(moment.pose.point(*position).iter());
         }
         for rig in moment.tethers {
             for node in 0..rig.nodes() {
@@ -396,8 +396,8 @@ fn run_installed(
     watcher: &mut dyn Watcher,
 ) -> Result<(), ClassError> {
     let Installed { mut structure, tethers, flow, compatibility, course, points, .. } = case;
-    let (_, places): (Vec<String>, _) = points.into_iter().unzip();
-    let mut near = course.pose.place(&Place::default());
+    let (_, positions): (Vec<String>, _) = points.into_iter().unzip();
+    let mut near = course.pose.position(&Place::default());
     // rotations of the last row, so that they grow on
     if let Some(numbers) = kept.structure.as_ref().and_then(|s| s.rows.get(s.rows.len().checked_sub(s.width())?..))
         && let [x, y, z, roll, pitch, yaw, ..] = *numbers
@@ -405,7 +405,7 @@ fn run_installed(
         near = Place { shift: [x, y, z], turn: [roll, pitch, yaw] };
     }
     let tethers: Vec<InstalledTether> = tethers;
-    let mut observer = InstalledKeeper { keeper: RunRecorder::new(kept, watcher), places, near, last: None };
+    let mut observer = InstalledKeeper { keeper: RunRecorder::new(kept, watcher), positions, near, last: None };
     let mut installation = Installation::new(structure.as_mut(), tethers, &flow, compatibility)?;
     let ended = match from {
         Some(checkpoint) => installation.resume(&course, checkpoint, &mut observer),
@@ -438,7 +438,7 @@ pub fn statistics_tables(run: &Tethered) -> Vec<Table> {
     let Some(Some(first)) = found.first() else { return Vec::new() };
     let mut tables = Vec::new();
     let mut at = 0;
-    let value = |place: usize, of: fn(&RunningSummary) -> f64| found.get(place).and_then(|s| s.as_ref()).map(of);
+    let value = |position: usize, of: fn(&RunningSummary) -> f64| found.get(position).and_then(|s| s.as_ref()).map(of);
     let counted = |table: Table| table.fact("INSTANTS PROCESSED", Cell::Integer(first.count as i64), Dim::None);
     if let Some(structure) = &run.structure {
         let names = ["X", "Y", "Z", "RX", "RY", "RZ"];
@@ -473,16 +473,16 @@ pub fn statistics_tables(run: &Tethered) -> Vec<Table> {
         let of_ends =
             (tether.end_quantities(), at + nodes, 2 * tether.line.elements().len(), tether.end_quantities().len());
         for (name, of) in PAGES {
-            for (head, (quantities, from, places, shown)) in [("NODE", of_nodes), ("ELEM", of_ends)] {
-                let number = |place: usize| if head == "NODE" { place + 1 } else { place / 2 + 1 };
-                let node = |place: usize| if head == "NODE" { place } else { place.div_ceil(2) };
-                let distances = (0..places).map(|place| tether.line.distances().get(node(place)).copied());
+            for (head, (quantities, from, positions, shown)) in [("NODE", of_nodes), ("ELEM", of_ends)] {
+                let number = |position: usize| if head == "NODE" { position + 1 } else { position / 2 + 1 };
+                let node = |position: usize| if head == "NODE" { position } else { position.div_ceil(2) };
+                let distances = (0..positions).map(|position| tether.line.distances().get(node(position)).copied());
                 let mut columns = vec![
-                    Column::new("", head, Dim::None, Digits::Usual, (0..places).map(number)),
+                    Column::new("", head, Dim::None, Digits::Usual, (0..positions).map(number)),
                     Column::new("", "DISTNCE", Dim::Length, Digits::Decimals(2), distances),
                 ];
                 for (index, quantity) in quantities.iter().enumerate().take(shown) {
-                    let cells = (0..places).map(|place| value(from + place * quantities.len() + index, of));
+                    let cells = (0..positions).map(|position| value(from + position * quantities.len() + index, of));
                     columns.push(Column::new(quantity.group, quantity.name, quantity.dim, quantity.digits, cells));
                 }
                 tables

@@ -110,21 +110,21 @@ impl TetherStatistics {
         let heads =
             if tether.towed { ["SWAY (Y)", "HEAVE (Z)", "PITCH (Y)", "YAW (Z)"] } else { ["X", "Y", "RX", "RY"] };
         for node in self.nodes(tether) {
-            let place = node.as_place();
-            for motion in place.channels.chunks(4) {
+            let position = node.as_place();
+            for motion in position.channels.chunks(4) {
                 let named = motion.iter().zip(heads);
                 let channels =
                     named.map(|(c, name)| Channel { group: "", name, digits: Digits::Decimals(4), ..*c }).collect();
                 let group = motion.first().map_or("", |channel| channel.group);
-                let title = format!("{title}: Node {} - {group}", place.number);
-                out.push(self.with_records(run, type_one(&title, &NodeSeries { channels, ..place.clone() })?));
+                let title = format!("{title}: Node {} - {group}", position.number);
+                out.push(self.with_records(run, type_one(&title, &NodeSeries { channels, ..position.clone() })?));
             }
         }
         let what = if tether.towed { "Bending Moments and Stresses" } else { "Tensions and Stresses" };
         for end in self.ends(tether) {
             let title = format!("{title}: Element {} - {what}", end.number);
-            let place = end.with_digits(Digits::Scientific(5));
-            out.push(self.with_records(run, type_one(&title, &place.as_place())?));
+            let position = end.with_digits(Digits::Scientific(5));
+            out.push(self.with_records(run, type_one(&title, &position.as_place())?));
         }
         Ok(out)
     }
@@ -148,23 +148,23 @@ impl TetherStatistics {
 
     fn nodes(self, tether: &TetherHistory) -> Vec<Owned> {
         let of = tether.node_quantities();
-        let place = |(node, distance): (usize, &f64)| Owned {
+        let position = |(node, distance): (usize, &f64)| Owned {
             number: node + 1,
             distance: *distance,
             channels: of.iter().take(12).enumerate().map(|(q, of)| (*of, self.pick(tether.node(node, q)))).collect(),
         };
-        tether.line.distances().iter().enumerate().map(place).collect()
+        tether.line.distances().iter().enumerate().map(position).collect()
     }
 
     fn ends(self, tether: &TetherHistory) -> Vec<Owned> {
         // an element has two ends: the first at its node, the second at the next
         let distances = tether.line.distances();
-        let place = |end: usize| {
+        let position = |end: usize| {
             let channels = if tether.towed { self.towed_end(tether, end) } else { self.installed_end(tether, end) };
             let distance = distances[end.div_ceil(2)];
             Owned { number: end / 2 + 1, distance, channels }
         };
-        (0..2 * tether.line.elements().len()).map(place).collect()
+        (0..2 * tether.line.elements().len()).map(position).collect()
     }
 
     /// The seven columns of figure 7.12.

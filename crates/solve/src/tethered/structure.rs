@@ -57,11 +57,11 @@ pub fn structure(
     let mut columns = vec![Column::new("", head, Dim::None, Digits::Usual, names)];
     let behind = 6 * StructureHistory::KINDS.len();
     for (dof, name) in FREEDOM_HEADS.into_iter().enumerate() {
-        let place = |point: &usize| {
+        let position = |point: &usize| {
             let value = (dof < 3).then(|| structure.value(instant, behind + 3 * point + dof)).flatten();
             value.map_or(String::new(), |value| format_fixed(Dim::Length.from_si(value, units), 4))
         };
-        let cells = kinds.iter().map(|kind| cell(*kind, dof)).chain(points.iter().map(place));
+        let cells = kinds.iter().map(|kind| cell(*kind, dof)).chain(points.iter().map(position));
         columns.push(Column::right_aligned("DEGREE OF FREEDOM", name, cells));
     }
     let mut table = Table::from_columns(format!("Structure {}", structure.body), columns)
@@ -109,7 +109,7 @@ pub fn harmonics(
     period: Option<f64>,
     instants: &[usize],
 ) -> Result<Vec<Table>, SeriesError> {
-    let time = |place: Option<&usize>| place.and_then(|i| run.times.get(*i)).copied().unwrap_or_default();
+    let time = |position: Option<&usize>| position.and_then(|i| run.times.get(*i)).copied().unwrap_or_default();
     let (start, end) = (time(instants.first()), time(instants.last()));
     let period = period.unwrap_or(end - start);
     let mut tables = Vec::new();

@@ -82,13 +82,15 @@ pub fn motions(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Ta
     let along = quantities.len() - 1;
     let nodes = || (0..tether.line.nodes()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| nodes().map(move |node| (*i, node))).collect();
-    let place = if tether.towed { "POSITION ALONG TETHER" } else { "HEIGHT ABOVE ANCHOR" };
+    let position = if tether.towed { "POSITION ALONG TETHER" } else { "HEIGHT ABOVE ANCHOR" };
     let mut table = Table::new(format!("Time History of Single Tether {}", tether.name))
         .with_rows(&rows)
         .column("STEP", "NUMB", Dim::None, Digits::Usual, |(instant, _)| step_number(run, *instant))
         .column("", "TIME", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
         .column("", "NODE", Dim::None, Digits::Usual, |(_, node)| node + 1)
-        .column("", place, Dim::Length, Digits::Decimals(1), |(instant, node)| tether.node_at(*instant, *node, along));
+        .column("", position, Dim::Length, Digits::Decimals(1), |(instant, node)| {
+            tether.node_at(*instant, *node, along)
+        });
     let groups = ["POSITIONS", "VELOCITIES", "ACCELERATIONS"];
     for (q, of) in quantities.iter().enumerate().take(along) {
         let group = groups.get(q / 4).copied().unwrap_or_default();
@@ -109,13 +111,13 @@ pub fn forces(run: &Tethered, tether: &TetherHistory, instants: &[usize]) -> Tab
     let ends = || (0..2 * tether.line.elements().len()).rev();
     let rows: Vec<(usize, usize)> = instants.iter().flat_map(|i| ends().map(move |end| (*i, end))).collect();
     let along = tether.node_quantities().len() - 1;
-    let place = if tether.towed { "DISTANCE" } else { "ELEVATION" };
+    let position = if tether.towed { "DISTANCE" } else { "ELEVATION" };
     let mut table = Table::new(format!("Time History of Forces and Stresses for Tether {}", tether.name))
         .with_rows(&rows)
         .column("", "TIME", Dim::Time, SECONDS, |(instant, _)| run.times.get(*instant).copied())
         .column("", "ELEM", Dim::None, Digits::Usual, |(_, end)| end / 2 + 1)
         .column("NODE", "NUMB", Dim::None, Digits::Usual, |(_, end)| end.div_ceil(2) + 1)
-        .column("", place, Dim::Length, Digits::Decimals(1), |(instant, end)| {
+        .column("", position, Dim::Length, Digits::Decimals(1), |(instant, end)| {
             tether.node_at(*instant, end.div_ceil(2), along)
         });
     let heads = if tether.towed { &TOWED_HEADS[..] } else { &INSTALLED_HEADS[..] };
@@ -201,27 +203,28 @@ pub fn table_along_tether(
 ) -> Option<Table> {
     let list = if at_nodes { tether.node_quantities() } else { tether.end_quantities() };
     let quantity = list.get(index)?;
-    let places: Vec<usize> =
+    let positions: Vec<usize> =
         if at_nodes { (0..tether.line.nodes()).collect() } else { (0..2 * tether.line.elements().len()).collect() };
-    let distance = |place: &usize| {
-        let node = if at_nodes { *place } else { place.div_ceil(2) };
+    let distance = |position: &usize| {
+        let node = if at_nodes { *position } else { position.div_ceil(2) };
         tether.line.distances().get(node).copied()
     };
-    let value = |instant: usize, place: usize| match at_nodes {
-        true => tether.node_at(instant, place, index),
-        false => tether.end_at(instant, place, index),
+    let value = |instant: usize, position: usize| match at_nodes {
+        true => tether.node_at(instant, position, index),
+        false => tether.end_at(instant, position, index),
     };
-    let whole = |place: &usize| if at_nodes { tether.node(*place, index) } else { tether.end(*place, index) };
+    let whole = |position: &usize| if at_nodes { tether.node(*position, index) } else { tether.end(*position, index) };
     let TetherQuantity { dim, digits, .. } = *quantity;
     let mut table = Table::new(format!("{} {} along Tether {}", quantity.group, quantity.name, tether.name))
-        .with_rows(&places)
+        .with_rows(&positions)
         .column("", "Distance", Dim::Length, Digits::Decimals(2), distance);
     for instant in instants {
         let time = run.times.get(*instant).copied().unwrap_or_default();
-        table = table.column(quantity.group, &format!("{time:.2} s"), dim, digits, |place| value(*instant, *place));
+        table =
+            table.column(quantity.group, &format!("{time:.2} s"), dim, digits, |position| value(*instant, *position));
     }
     let table = table
-        .column(quantity.group, "Least", dim, digits, |place| whole(place).into_iter().reduce(f64::min))
-        .column(quantity.group, "Largest", dim, digits, |place| whole(place).into_iter().reduce(f64::max));
+        .column(quantity.group, "Least", dim, digits, |position| whole(position).into_iter().reduce(f64::min))
+        .column(quantity.group, "Largest", dim, digits, |position| whole(position).into_iter().reduce(f64::max));
     Some(table.build())
 }

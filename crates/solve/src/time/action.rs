@@ -98,5 +98,5 @@ pub(crate) fn point_in_body(model: &Model, name: &str) -> Result<(usize, Positio
     let part = model.parts.get(&Model::key(&point.part)).ok_or_else(missing)?;
     let body: &Body = model.body_of(point).ok_or_else(missing)?;
     let index = model.bodies.get_index_of(&Model::key(&body.name)).ok_or_else(missing)?;
-    Ok((index, part.place.apply(point.at)))
+    Ok((index, part.position.apply(point.at)))
 }

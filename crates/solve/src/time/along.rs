@@ -102,7 +102,7 @@ impl AlongColumns {
     pub(super) fn write(&self, nodes: &[LineNode], row: &mut [f64]) -> Result<(), ClassError> {
         let Some(own) = row.get_mut(self.at..self.at + self.width()) else { return Ok(()) };
         own.fill(f64::NAN);
-        for (number, place) in self.numbers.iter().zip(own.chunks_exact_mut(self.stride())) {
+        for (number, columns) in self.numbers.iter().zip(own.chunks_exact_mut(self.stride())) {
             let found = match number {
                 1 => nodes.first(),
                 // counted from the second end, and never the first end twice
@@ -113,7 +113,7 @@ impl AlongColumns {
             let clearance = if clearance.is_finite() { *clearance } else { f64::NAN };
             let values = [*arc, position.x, position.y, position.z, clearance, *effective];
             let mut whole = values.iter().enumerate().all(|(i, v)| i == 4 || v.is_finite());
-            let (first, rest) = place.split_at_mut(VALUES_PER_NODE);
+            let (first, rest) = columns.split_at_mut(VALUES_PER_NODE);
             first.copy_from_slice(&values);
             if self.bends {
                 // of a line that reports its moment alone, all of it is about one direction
@@ -133,9 +133,9 @@ impl AlongColumns {
     }
 
     /// A node that is kept, by its place among these, in a row; none where it is not there.
-    pub fn node(&self, place: usize, row: &[f64]) -> Option<NodeRow> {
-        let from = self.at + self.stride() * place;
-        let numbers = row.get(from..from + self.stride()).filter(|_| place < self.numbers.len())?;
+    pub fn node(&self, position: usize, row: &[f64]) -> Option<NodeRow> {
+        let from = self.at + self.stride() * position;
+        let numbers = row.get(from..from + self.stride()).filter(|_| position < self.numbers.len())?;
         let [arc, x, y, z, clearance, effective, rest @ ..] = numbers else { return None };
         let bent = match rest {
             [wall, shear, one, other, before, behind, outside, inside] => Some(BentRow {
@@ -153,7 +153,7 @@ impl AlongColumns {
 
     /// All nodes that are kept, with their places, from the first end; those that are not there are left out.
     pub fn nodes<'a>(&'a self, row: &'a [f64]) -> impl Iterator<Item = (usize, NodeRow)> + 'a {
-        (0..self.numbers.len()).filter_map(|place| Some((place, self.node(place, row)?)))
+        (0..self.numbers.len()).filter_map(|position| Some((position, self.node(position, row)?)))
     }
 }
 
@@ -221,16 +221,16 @@ impl AlongEnvelope {
     /// Something infinite.
     pub fn take(&mut self, along: &AlongColumns, row: &[f64]) -> Result<(), SeriesError> {
         let time = row.first().copied().unwrap_or(f64::NAN);
-        let all = (0..along.numbers.len()).flat_map(|place| {
-            let node = along.node(place, row);
+        let all = (0..along.numbers.len()).flat_map(|position| {
+            let node = along.node(position, row);
             NodeQuantity::ALL.map(|quantity| node.as_ref().map_or(f64::NAN, |node| quantity.value(node)))
         });
         self.0.take(time, all)
     }
 
     /// What was seen of a quantity at the node of a place; none where it never was there.
-    pub fn extremes(&self, place: usize, quantity: NodeQuantity) -> Option<EnvelopeValue> {
-        self.0.extremes(place * NodeQuantity::ALL.len() + quantity as usize)
+    pub fn extremes(&self, position: usize, quantity: NodeQuantity) -> Option<EnvelopeValue> {
+        self.0.extremes(position * NodeQuantity::ALL.len() + quantity as usize)
     }
 }
 

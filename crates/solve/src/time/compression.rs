@@ -25,7 +25,7 @@ pub struct CompressionOnset {
 impl CompressionOnset {
     /// Of a connector between two ends, of which that of a number is reported, or else the first on a body.
     pub(crate) fn new(from: f64, ends: &[EndAttachment], pulling_end: usize) -> Option<Self> {
-        let place = |end: &EndAttachment| match end {
+        let position = |end: &EndAttachment| match end {
             EndAttachment::Ground(pose) => (None, pose.origin),
             EndAttachment::Body(body, at) => (Some(*body), *at),
         };
@@ -33,7 +33,7 @@ impl CompressionOnset {
         let on_body = |end: &EndAttachment| matches!(end, EndAttachment::Body(..));
         let is_second_end = if on_body(first) && on_body(second) { pulling_end == 1 } else { on_body(second) };
         let (near, far) = if is_second_end { (second, first) } else { (first, second) };
-        Some(CompressionOnset { from, ends: [place(near), place(far)] })
+        Some(CompressionOnset { from, ends: [position(near), position(far)] })
     }
 
     /// The pull by the force on the end that is reported (N), where a row has the bodies.

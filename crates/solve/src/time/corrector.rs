@@ -61,7 +61,7 @@ impl Stepper {
             self.over.clear();
             self.over.resize(start.len(), Six::zeros());
             self.prescribe(system, TimeStep { time: ahead.time, dt })?;
-            self.place(system, start, dt, &scheme);
+            self.position(system, start, dt, &scheme);
             self.pose(system, start);
             ahead.motions.clone_from(&self.trial);
             if effort.evaluations == 0 {

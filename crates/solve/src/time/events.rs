@@ -207,13 +207,13 @@ impl Run {
             }
             Observable::Dof(body, dof) => {
                 let index = self.model.bodies.get_index_of(&Model::key(body))?;
-                let place = self.now.motions.get(index)?.pose.place(self.near.get(index)?);
-                place.shift.iter().chain(&place.turn).nth(*dof).copied()
+                let position = self.now.motions.get(index)?.pose.position(self.near.get(index)?);
+                position.shift.iter().chain(&position.turn).nth(*dof).copied()
             }
             Observable::Height(point) => {
                 let (body, at): (usize, Position) = point_in_body(&self.model, point).ok()?;
-                let place = self.now.motions.get(body)?.pose.point(at.into());
-                Some(place.z - self.system.surroundings.tide)
+                let position = self.now.motions.get(body)?.pose.point(at.into());
+                Some(position.z - self.system.surroundings.tide)
             }
         }
     }

@@ -178,7 +178,7 @@ mod tests {
         // stiffness 3, damping 2, inertia 5, and a pull that is a cubic of time: its changes over the steps are a parabola
         let whole = |value: f64| DMatrix::from_diagonal_element(6, 6, value);
         let own = |t: f64| 7.0 * t * t * t - 4.0 * t * t + t;
-        let place = |t: f64| 0.3 * t * t;
+        let position = |t: f64| 0.3 * t * t;
         let motion = |t: f64| BodyMotion {
             velocity: Six::repeat(0.6 * t),
             acceleration: Six::repeat(0.6 * (10.0 * t).sin()),
@@ -186,13 +186,13 @@ mod tests {
         };
         let force = |t: f64| {
             let at = motion(t);
-            DVector::repeat(6, own(t) - 3.0 * place(t) - 2.0 * at.velocity[0] - 5.0 * at.acceleration[0])
+            DVector::repeat(6, own(t) - 3.0 * position(t) - 2.0 * at.velocity[0] - 5.0 * at.acceleration[0])
         };
         let mut made = ForcePredictor::default();
         let dt = 0.1;
         for step in 0..5 {
             let t = f64::from(step) * dt;
-            let (start, trial, over) = ([motion(t)], [motion(t + dt)], [Six::repeat(place(t + dt) - place(t))]);
+            let (start, trial, over) = ([motion(t)], [motion(t + dt)], [Six::repeat(position(t + dt) - position(t))]);
             let mut predicted = force(t);
             made.begin(&predicted);
             let ready = made.add(dt, (&trial, &start, &over), &mut predicted)

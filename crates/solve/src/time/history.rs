@@ -212,7 +212,7 @@ impl RowLayout {
         row.clear();
         row.push(time);
         for (motion, near) in motions.iter().zip(near) {
-            *near = motion.pose.place(near);
+            *near = motion.pose.position(near);
             row.extend_from_slice(&near.shift);
             row.extend_from_slice(&near.turn);
             row.extend_from_slice(motion.velocity.as_slice());
@@ -243,8 +243,8 @@ impl RowLayout {
                 }
                 let mut at = columns.wrench;
                 for (end, wrench) in link.acting_ends().iter().zip(forces.wrenches.iter().skip(first)) {
-                    if let (EndAttachment::Body(..), Some(place)) = (end, row.get_mut(at..at + 6)) {
-                        place.copy_from_slice(wrench.as_slice());
+                    if let (EndAttachment::Body(..), Some(position)) = (end, row.get_mut(at..at + 6)) {
+                        position.copy_from_slice(wrench.as_slice());
                         at += 6;
                     }
                 }

@@ -25,11 +25,11 @@ pub fn gyroscopic(mass: &Mass, motion: &BodyMotion) -> Six {
 /// How inertia about the origin changes with the rotation vector and with the rate of turning: `d(M a + gyroscopic)/d(motion)` and
 /// `/d(velocity)`.
 pub(super) fn turned_inertia(node: &SystemBody, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
-    let [mut place, velocity] = of_mass(&node.floating.mass, motion);
+    let [mut position, velocity] = of_mass(&node.floating.mass, motion);
     if node.added {
-        place += rotated_added_inertia(&node.floating.added_mass(&motion.pose), &motion.acceleration);
+        position += rotated_added_inertia(&node.floating.added_mass(&motion.pose), &motion.acceleration);
     }
-    [place, velocity]
+    [position, velocity]
 }
 
 /// `d(A a)/d(rotation)` of a matrix that turns with its body: each 3x3 block B of it changes `B x` by `(B [x] - [B x])` times the rotation.
@@ -55,15 +55,15 @@ fn of_mass(mass: &Mass, motion: &BodyMotion) -> [Matrix6<f64>; 2] {
     let lever = (axes * mass.centre).cross_matrix() * mass.mass;
     let own = axes * mass.inertia * axes.transpose();
     let of = |x: &Matrix3<f64>| (own * Vector3::new(x.m32, x.m13, x.m21)).cross_matrix();
-    let (mut place, mut velocity) = (Matrix6::zeros(), Matrix6::zeros());
-    place.fixed_view_mut::<3, 3>(0, 3).copy_from(&-((alpha + omega * omega) * lever));
+    let (mut position, mut velocity) = (Matrix6::zeros(), Matrix6::zeros());
+    position.fixed_view_mut::<3, 3>(0, 3).copy_from(&-((alpha + omega * omega) * lever));
     let moment = linear * lever + own * alpha - of(&alpha) + omega * (own * omega - of(&omega));
-    place.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
+    position.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
     // w x (w x r): by the inner rate and by the outer one
     let swung = omega * lever - lever * omega;
     velocity.fixed_view_mut::<3, 3>(0, 3).copy_from(&-(omega * lever + swung));
     velocity.fixed_view_mut::<3, 3>(3, 3).copy_from(&(omega * own - of(&omega)));
-    [place, velocity]
+    [position, velocity]
 }
 
 #[cfg(test)]
@@ -83,7 +83,7 @@ mod tests {
             ..BodyMotion::default()
         };
         let whole = |m: &BodyMotion| mass_block(&mass, &m.pose) * m.acceleration + gyroscopic(&mass, m);
-        let [place, rate] = of_mass(&mass, &start);
+        let [position, rate] = of_mass(&mass, &start);
         for n in 0..6 {
             // central differences of 1e-6 of numbers of 1e4: rounding 1e-16 * 1e4 / 1e-6, the third derivative 1e-12 * 1e4
             let step = 1e-6;
@@ -95,7 +95,7 @@ mod tests {
                 [whole(&turned), whole(&faster)]
             };
             let ([a, c], [b, d]) = (moved(1.0), moved(-1.0));
-            assert!(((a - b) / (2.0 * step) - place.column(n)).amax() < 1e-4, "place {n}");
+            assert!(((a - b) / (2.0 * step) - position.column(n)).amax() < 1e-4, "place {n}");
             assert!(((c - d) / (2.0 * step) - rate.column(n)).amax() < 1e-4, "velocity {n}");
         }
     }

@@ -78,8 +78,8 @@ impl Stepper {
             (self.masses.as_slice(), self.turned.as_slice(), size, self.rows.iter().all(|r| r.heavy))
         {
             let block = |m: &DMatrix<f64>| m.fixed_view::<6, 6>(0, 0).into_owned();
-            let [place, velocity] = *turned;
-            let whole = (block(&forces.stiffness) + place) * by_place
+            let [position, velocity] = *turned;
+            let whole = (block(&forces.stiffness) + position) * by_place
                 + (block(&forces.damping) + velocity) * by_velocity
                 + block(&forces.inertia)
                 + mass;
@@ -87,18 +87,18 @@ impl Stepper {
             return;
         }
         for (j, column) in self.rows.iter().enumerate() {
-            let (place, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
+            let (position, velocity) = if column.heavy { (by_place, by_velocity) } else { (1.0, 1.0 / dt) };
             for (i, row) in self.rows.iter().enumerate() {
                 let (at, to) = (row.at, column.at);
-                let mut value = forces.stiffness[(at, to)] * place + forces.damping[(at, to)] * velocity;
+                let mut value = forces.stiffness[(at, to)] * position + forces.damping[(at, to)] * velocity;
                 if row.heavy && column.heavy {
                     value += forces.inertia[(at, to)];
                 }
                 if row.heavy && column.heavy && at / 6 == to / 6 {
-                    let place = (at % 6, to % 6);
-                    value += self.masses[at / 6][place];
+                    let position = (at % 6, to % 6);
+                    value += self.masses[at / 6][position];
                     let [by_turn, by_spin] = &self.turned[at / 6];
-                    value += by_turn[place] * by_place + by_spin[place] * by_velocity;
+                    value += by_turn[position] * by_place + by_spin[position] * by_velocity;
                 }
                 self.matrix[(i, j)] = value;
             }

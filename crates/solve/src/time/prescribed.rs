@@ -35,10 +35,10 @@ pub fn build_prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Bo
     let Some(given) = &body.prescribed else { return Ok(None) };
     let made: Box<dyn Prescribed> = match &given.motion {
         GivenMotion::Sinusoids { list, ramp } => {
-            Box::new(SinusoidalMotion { place: body.place, list: list.clone(), ramp: *ramp })
+            Box::new(SinusoidalMotion { position: body.position, list: list.clone(), ramp: *ramp })
         }
         GivenMotion::Responses(table) => {
-            Box::new(RaoMotion::new(body.place, table, sea).map_err(|e| e.with_span(given.span))?)
+            Box::new(RaoMotion::new(body.position, table, sea).map_err(|e| e.with_span(given.span))?)
         }
         GivenMotion::Path(rows) => Box::new(Spline::new(rows).map_err(|e| e.with_span(given.span))?),
     };
@@ -54,9 +54,9 @@ pub(super) type DofMotion = [[f64; 6]; 3];
 /// y axis after the yaw alone and e3 the vertical, the rotation is `roll' e1 + pitch' e2 + yaw' e3`; e2 turns with the yaw and e1 with
 /// yaw and pitch, which gives its derivative.
 pub(super) fn motion_from_dofs([values, rates, seconds]: &DofMotion) -> BodyMotion {
-    let place = Place::new(*values);
-    let pose = Pose::from_place(&place);
-    let [_, _, yaw] = place.turn;
+    let position = Place::new(*values);
+    let pose = Pose::from_place(&position);
+    let [_, _, yaw] = position.turn;
     let (e1, e3) = (pose.axes.column(0).into_owned(), Vector3::z());
     let e2 = Vector3::new(-yaw.sin(), yaw.cos(), 0.0);
     let [x, y, z, roll, pitch, turn] = *rates;
@@ -77,7 +77,7 @@ pub(super) fn motion_from_dofs([values, rates, seconds]: &DofMotion) -> BodyMoti
 /// Sines about a place.
 #[derive(Debug)]
 struct SinusoidalMotion {
-    place: Place,
+    position: Place,
     list: Vec<Sinusoid>,
     ramp: f64,
 }
@@ -101,7 +101,7 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 impl Prescribed for SinusoidalMotion {
     fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
         let grown = ramp(time, self.ramp);
-        let mut dofs = [self.place.values(), [0.0; 6], [0.0; 6]];
+        let mut dofs = [self.position.values(), [0.0; 6], [0.0; 6]];
         for sine in &self.list {
             let frequency = TAU / sine.period;
             let (sin, cos) = (frequency * time + sine.phase).sin_cos();

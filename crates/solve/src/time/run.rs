@@ -118,7 +118,7 @@ impl Run {
             system.state(&model).poses.into_iter().map(|pose| BodyMotion { pose, ..BodyMotion::default() }).collect();
         let memory = LoadMemory::new(&system);
         let fired = vec![None; actions.len()];
-        let near = model.bodies.values().map(|b| b.place).collect();
+        let near = model.bodies.values().map(|b| b.position).collect();
         let from = settings.transient;
         let mut run = Run {
             now: SystemInstant { motions, memory, ..SystemInstant::default() },
@@ -339,7 +339,7 @@ impl Run {
         }
         let sunk = |body: usize| {
             let motion = self.now.motions.get(body)?;
-            let began = self.origin.bodies.get_index(body)?.1.place.shift[2];
+            let began = self.origin.bodies.get_index(body)?.1.position.shift[2];
             (motion.velocity[2] < 0.0).then_some(began - motion.pose.origin.z)
         };
         self.system.because_it_sinks(error, &sunk)

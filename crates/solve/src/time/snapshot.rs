@@ -170,8 +170,8 @@ impl Snapshot {
         };
         let winches = (0..count).map(|_| winch(&mut from)).collect::<Option<_>>()?;
         let count = from.count(48)?;
-        let place = |from: &mut Read| Some(Place { shift: from.array()?, turn: from.array()? });
-        let near = (0..count).map(|_| place(&mut from)).collect::<Option<_>>()?;
+        let position = |from: &mut Read| Some(Place { shift: from.array()?, turn: from.array()? });
+        let near = (0..count).map(|_| position(&mut from)).collect::<Option<_>>()?;
         let rows = from.plain()?;
         let [steps, cut, iterations, evaluations] = [from.plain()?, from.plain()?, from.plain()?, from.plain()?];
         let counts = RunCounts { steps, cut, iterations, evaluations };

@@ -201,7 +201,7 @@ impl Stepper {
     }
 
     /// Trial motions for the present accelerations of the trial.
-    pub(super) fn place(&mut self, system: &System, start: &[BodyMotion], dt: f64, scheme: &TimeScheme) {
+    pub(super) fn position(&mut self, system: &System, start: &[BodyMotion], dt: f64, scheme: &TimeScheme) {
         for (((trial, over), old), node) in self.trial.iter_mut().zip(&mut self.over).zip(start).zip(&system.nodes) {
             if node.prescribed.is_some() {
                 continue;
@@ -257,7 +257,7 @@ impl Stepper {
         for (trial, _) in self.trial.iter_mut().zip(&system.nodes).filter(|(_, n)| n.prescribed.is_none()) {
             trial.acceleration += trial.jerk * dt;
         }
-        self.place(system, &now.motions, dt, scheme);
+        self.position(system, &now.motions, dt, scheme);
         for row in self.rows.iter().filter(|r| !r.heavy) {
             let (Some(trial), Some(over)) = (self.trial.get_mut(row.at / 6), self.over.get_mut(row.at / 6)) else {
                 continue;

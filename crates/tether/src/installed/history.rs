@@ -136,8 +136,8 @@ impl InstalledObserver for InstalledHistory {
         let due = moment.state.is_multiple_of(self.every);
         if due {
             let mut row = [0.0; NUMBERS_PER_STRUCTURE];
-            let place = Six::from(moment.pose.place(&Place::default()).values());
-            let motions = [place, moment.velocity, moment.acceleration];
+            let position = Six::from(moment.pose.position(&Place::default()).values());
+            let motions = [position, moment.velocity, moment.acceleration];
             let all = motions.into_iter().chain(moment.forces.kinds()).chain([moment.error]);
             row[0] = moment.time;
             row[1..].iter_mut().zip(all.flat_map(<[f64; 6]>::from)).for_each(|(to, from)| *to = from);

@@ -330,8 +330,8 @@ impl InstalledRunSettings {
     /// Sees that it can be run.
     fn check(&self) -> Result<(), ClassError> {
         let finite = self.start.is_finite() && self.velocity.iter().all(|v| v.is_finite());
-        let place = self.pose.origin.iter().chain(self.pose.axes.iter()).all(|v| v.is_finite());
-        if !(finite && place) {
+        let position = self.pose.origin.iter().chain(self.pose.axes.iter()).all(|v| v.is_finite());
+        if !(finite && position) {
             return Err(ClassError::new("the run has a start that is no finite number"));
         }
         if !(self.step.is_finite() && self.step > 0.0) {

@@ -10,7 +10,7 @@ impl Towed {
         let [x, y, z] = self.origin;
         let length = self.line.length();
         let far = [x + length * self.heading.cos(), y + length * self.heading.sin(), z];
-        let end = |node: &str, place| TetherEnd { node: node.into(), given: place, initial: place };
+        let end = |node: &str, position| TetherEnd { node: node.into(), given: position, initial: position };
         TetherDescription {
             number: tether,
             configuration: TetherArrangement::Towed,

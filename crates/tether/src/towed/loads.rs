@@ -71,7 +71,7 @@ pub struct Loading<'a> {
     shortened: Vec<Foreshortening>,
     /// Turns at the time and at the place in hand.
     time: Vec<Turn>,
-    place: Vec<Turn>,
+    position: Vec<Turn>,
     /// Loads of gravity along z.
     gravity: Vec<Vector4>,
     /// Loads of each element in the planes y and z.
@@ -99,14 +99,14 @@ impl<'a> Loading<'a> {
             let share = 1.0 / number;
             for index in 0..number as usize {
                 let from = index as f64 * share;
-                let places = GAUSS.map(|(a, _)| from + share * a);
+                let positions = GAUSS.map(|(a, _)| from + share * a);
                 lengths.push(IntegrationLength {
                     element,
                     from,
                     share,
-                    x: places.map(|a| start + a * e.length),
-                    deflections: places.map(|a| deflection(a, e.length)),
-                    slopes: places.map(|a| slope(a, e.length)),
+                    x: positions.map(|a| start + a * e.length),
+                    deflections: positions.map(|a| deflection(a, e.length)),
+                    slopes: positions.map(|a| slope(a, e.length)),
                 });
             }
         }
@@ -123,7 +123,7 @@ impl<'a> Loading<'a> {
             kept,
             shortened: vec![Foreshortening::default(); elements.len()],
             time: Vec::with_capacity(waters.blocks()),
-            place: Vec::with_capacity(waters.blocks()),
+            position: Vec::with_capacity(waters.blocks()),
             gravity: elements.iter().map(weight).collect(),
             forces: vec![[[0.0; 4]; 2]; elements.len()],
             added: vec![[[[0.0; 4]; 4]; 2]; elements.len()],
@@ -183,19 +183,19 @@ impl<'a> Loading<'a> {
         let shortened = self.shortened[length.element];
         let start = length.x[0] - (length.from + length.share * GAUSS[0].0) * element.length;
         let shifts = length.x.map(|x| shortened.shift(x - start));
-        self.place.clear();
+        self.position.clear();
         for (i, (x, shift)) in length.x.iter().zip(shifts).enumerate() {
             if usable && shift.abs() * self.waters.steepest <= MAX_SERIES_PHASE {
                 let kept = &self.kept[(4 * index + i) * blocks..(4 * index + i + 1) * blocks];
-                self.waters.at_shifted_place(kept, shift, &mut self.place);
+                self.waters.at_shifted_place(kept, shift, &mut self.position);
             } else {
-                self.waters.at_place(x + shift, dot(&length.deflections[i], &motion.at[0]), &mut self.place);
+                self.waters.at_place(x + shift, dot(&length.deflections[i], &motion.at[0]), &mut self.position);
             }
         }
         let mut elevations = [0.0; 4];
         let mut heights = [0.0; 4];
         for i in 0..4 {
-            elevations[i] = self.waters.elevation(&self.time, &self.place[i * blocks..(i + 1) * blocks]);
+            elevations[i] = self.waters.elevation(&self.time, &self.position[i * blocks..(i + 1) * blocks]);
             heights[i] = elevations[i] - case.origin[2] - dot(&length.deflections[i], &motion.at[1]);
         }
         let radius = 0.5 * element.outer_diameter;
@@ -206,8 +206,8 @@ impl<'a> Loading<'a> {
                 for i in 0..4 {
                     let z = elevations[i] - heights[i];
                     let flow =
-                        self.waters.flow(&self.time, &self.place[i * blocks..(i + 1) * blocks], z, elevations[i]);
-                    let place = AxisPlace {
+                        self.waters.flow(&self.time, &self.position[i * blocks..(i + 1) * blocks], z, elevations[i]);
+                    let position = AxisPlace {
                         weight: GAUSS[i].1 * length.share * element.length,
                         deflection: length.deflections[i],
                         slope: length.slopes[i],
@@ -215,7 +215,7 @@ impl<'a> Loading<'a> {
                         flow,
                     };
                     let (forces, added) = (&mut self.forces[length.element], &mut self.added[length.element]);
-                    place.load(case, element, &motion, forces, added);
+                    position.load(case, element, &motion, forces, added);
                 }
             }
             SubmergenceState::Cut { limits, pieces } => {
@@ -241,25 +241,25 @@ impl<'a> Loading<'a> {
             let a = length.from + length.share * (from + (to - from) * at);
             let shape = deflection(a, element.length);
             let y = if self.waters.lateral { dot(&shape, &motion.at[0]) } else { 0.0 };
-            self.place.clear();
+            self.position.clear();
             let distance = a * element.length;
             let shift = self.shortened[length.element].shift(distance);
-            self.waters.at_place(start + distance + shift, y, &mut self.place);
-            let elevation = self.waters.elevation(&self.time, &self.place);
+            self.waters.at_place(start + distance + shift, y, &mut self.position);
+            let elevation = self.waters.elevation(&self.time, &self.position);
             let z = case.origin[2] + dot(&shape, &motion.at[1]);
             let wet = SubmergedSection::new(elevation - z, element.outer_diameter);
             if wet.height == 0.0 {
                 continue;
             }
-            let place = AxisPlace {
+            let position = AxisPlace {
                 weight: weight * (to - from) * length.share * element.length,
                 slope: slope(a, element.length),
-                flow: self.waters.flow(&self.time, &self.place, z, elevation),
+                flow: self.waters.flow(&self.time, &self.position, z, elevation),
                 deflection: shape,
                 wet,
             };
             let (forces, added) = (&mut self.forces[length.element], &mut self.added[length.element]);
-            place.load(case, element, motion, forces, added);
+            position.load(case, element, motion, forces, added);
         }
     }
 }

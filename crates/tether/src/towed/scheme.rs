@@ -171,9 +171,9 @@ impl<'a> TowedScheme<'a> {
                 *taken += implicit * a;
             }
             for (i, (stiffness, mass)) in self.elements.iter().enumerate() {
-                let (place, a) = (of_element(&self.taken, i), of_element(right, i));
+                let (position, a) = (of_element(&self.taken, i), of_element(right, i));
                 let [bending, dry, wet] =
-                    [times(stiffness, &place), times(mass, &a), times(&self.loading.added[i][p], &a)];
+                    [times(stiffness, &position), times(mass, &a), times(&self.loading.added[i][p], &a)];
                 for (j, end) in self.ends[i][p].iter_mut().enumerate() {
                     *end += 0.5 * (bending[j] + dry[j] + wet[j] - self.loading.forces[i][p][j]);
                 }

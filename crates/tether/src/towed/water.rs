@@ -198,32 +198,32 @@ impl Waters {
 
     /// Height of the surface above the still water level (m).
     #[inline]
-    pub fn elevation(&self, time: &[Turn], place: &[Turn]) -> f64 {
+    pub fn elevation(&self, time: &[Turn], position: &[Turn]) -> f64 {
         if let Some((wave, _)) = &self.stokes {
-            return wave.elevation_of_phase(self.first_phase(time, place));
+            return wave.elevation_of_phase(self.first_phase(time, position));
         }
-        total(&elevations(&self.blocks, time, place))
+        total(&elevations(&self.blocks, time, position))
     }
 
     /// The water at a height above the still water level (m), under a surface of an elevation (m).
-    pub fn flow(&self, time: &[Turn], place: &[Turn], height: f64, elevation: f64) -> TowedFlow {
+    pub fn flow(&self, time: &[Turn], position: &[Turn], height: f64, elevation: f64) -> TowedFlow {
         if let Some((wave, toward)) = &self.stokes {
-            let motion = wave.particle_of_phase(self.first_phase(time, place), height);
+            let motion = wave.particle_of_phase(self.first_phase(time, position), height);
             let axes = |[along, up]: [f64; 2]| [toward[0] * along, toward[1] * along, up];
             let [u, v, w] = axes(motion.velocity);
             let [cx, cy] = self.current_at(height);
             return TowedFlow { velocity: [u + cx, v + cy, w], acceleration: axes(motion.acceleration) };
         }
         let z = self.reach(height, elevation);
-        let sums = flows(&self.blocks, time, place, z, self.lateral);
+        let sums = flows(&self.blocks, time, position, z, self.lateral);
         let [u, v, w, ax, ay, az] = sums.map(|s| (s[0] + s[2]) + (s[1] + s[3]));
         let [cx, cy] = self.current_at(height);
         TowedFlow { velocity: [u + cx, v + cy, w], acceleration: [ax, ay, az] }
     }
 
     /// Cosine and sine of the angle of the first wave.
-    fn first_phase(&self, time: &[Turn], place: &[Turn]) -> [f64; 2] {
-        let (Some(block), Some(t), Some(p)) = (self.blocks.first(), time.first(), place.first()) else {
+    fn first_phase(&self, time: &[Turn], position: &[Turn]) -> [f64; 2] {
+        let (Some(block), Some(t), Some(p)) = (self.blocks.first(), time.first(), position.first()) else {
             return [1.0, 0.0];
         };
         let speed = block.speed[0];
@@ -280,9 +280,9 @@ fn shift_turns(blocks: &[WaveBlock], shift: f64, turns: &mut [Turn]) {
 
 /// Sums of the elevations of every eighth wave (m).
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Lanes8 {
+fn elevations(blocks: &[WaveBlock], time: &[Turn], position: &[Turn]) -> Lanes8 {
     let mut sums = [0.0; 8];
-    for ((block, t), p) in blocks.iter().zip(time).zip(place) {
+    for ((block, t), p) in blocks.iter().zip(time).zip(position) {
         for (i, sum) in sums.iter_mut().enumerate() {
             *sum += block.slowness[i] * (t[0][i] * p[0][i] - t[1][i] * p[1][i]);
         }
@@ -292,9 +292,9 @@ fn elevations(blocks: &[WaveBlock], time: &[Turn], place: &[Turn]) -> Lanes8 {
 
 /// Sums of the velocities and accelerations of every fourth wave at a height.
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn flows(blocks: &[WaveBlock], time: &[Turn], place: &[Turn], z: f64, lateral: bool) -> [Lanes4; 6] {
+fn flows(blocks: &[WaveBlock], time: &[Turn], position: &[Turn], z: f64, lateral: bool) -> [Lanes4; 6] {
     let mut sums = [[0.0; 4]; 6];
-    for ((b, t), p) in blocks.iter().zip(time).zip(place) {
+    for ((b, t), p) in blocks.iter().zip(time).zip(position) {
         if b.deep {
             half::<true, 0>(b, t, p, z, lateral, &mut sums);
             half::<true, 4>(b, t, p, z, lateral, &mut sums);

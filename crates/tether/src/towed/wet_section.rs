@@ -80,8 +80,8 @@ pub struct Scan {
 impl Default for Scan {
     fn default() -> Self {
         let mut weights = [[1.0; 4]; SURFACE_SAMPLES];
-        for (place, row) in weights.iter_mut().enumerate() {
-            let at = place as f64 / (SURFACE_SAMPLES - 1) as f64;
+        for (position, row) in weights.iter_mut().enumerate() {
+            let at = position as f64 / (SURFACE_SAMPLES - 1) as f64;
             for (i, weight) in row.iter_mut().enumerate() {
                 for (j, (other, _)) in GAUSS.iter().enumerate() {
                     if i != j {
@@ -112,14 +112,15 @@ impl Scan {
         }
         let mut limits = [0.0; MAX_WETTED_PIECES + 1];
         let mut pieces = 0;
-        for place in 1..SURFACE_SAMPLES {
-            let (from, to) = (values[place - 1], values[place]);
+        for position in 1..SURFACE_SAMPLES {
+            let (from, to) = (values[position - 1], values[position]);
             // in the order the line between them meets top and bottom
             let levels = if to >= from { [-radius, radius] } else { [radius, -radius] };
             for level in levels {
                 if (from < level) != (to < level) && pieces + 1 < MAX_WETTED_PIECES {
                     pieces += 1;
-                    limits[pieces] = (place as f64 - 1.0 + (level - from) / (to - from)) / (SURFACE_SAMPLES - 1) as f64;
+                    limits[pieces] =
+                        (position as f64 - 1.0 + (level - from) / (to - from)) / (SURFACE_SAMPLES - 1) as f64;
                 }
             }
         }

@@ -238,11 +238,11 @@ fn run_matches_printed_states() {
             seen += 1;
             let at = &p["history"][r.time.to_string()];
             let listed = |column: usize| move |i: usize| number(&at["motion"][13 - i][column]);
-            let (place, _) = misfit(|i| r.positions[i][1], listed(3));
+            let (position, _) = misfit(|i| r.positions[i][1], listed(3));
             let (velocity, _) = misfit(|i| r.velocities[i][1], listed(7));
             let (acceleration, _) = misfit(|i| r.accelerations[i][1], listed(11));
             let (along, _) = misfit(|i| r.along[i], listed(1));
-            assert!(place < 0.025, "{} s: {place}", r.time);
+            assert!(position < 0.025, "{} s: {position}", r.time);
             assert!(velocity < velocity_room && acceleration < 0.056, "{} s: {velocity} {acceleration}", r.time);
             // printed to 0.1 m
             assert!(along < 0.05, "{} s: {along}", r.time);

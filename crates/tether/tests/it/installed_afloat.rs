@@ -56,7 +56,7 @@ fn model(pull: f64, height: f64) -> Model {
     };
     let body = Body {
         name: "B".into(),
-        place: Place::default(),
+        position: Place::default(),
         previous: Place::default(),
         ignored: Vec::new(),
         junction: None,

@@ -116,14 +116,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let tables = tables(job, call)?;
     let transient = transient_of(job, args);
-    print_or_dispose(job, args, &tables, (transient, args.place(NAME)))
+    print_or_dispose(job, args, &tables, (transient, args.position(NAME)))
 }
 
 fn tables(job: &Job, call: &Call) -> Tables {
     let args = &call.args;
     let run = last_run(job, args.span)?;
     let line = LineResults::find(run, args.word(NAME).unwrap_or_default())
-        .map_err(|e| e.diagnostic(args.place(NAME), job.units))?;
+        .map_err(|e| e.diagnostic(args.position(NAME), job.units))?;
     let chosen = args.choice(WHAT).unwrap_or(&envelope::ENVELOPE);
     chosen.check_record(args, args.data_after(WHAT).first(), "numbers")?;
     (chosen.tables)(&RodQuery { job, call, run, line })

@@ -26,11 +26,11 @@ const ARC: OptionSpec = OptionSpec::new(
 
 fn tables(query: &RodQuery) -> Tables {
     let events = query.events()?;
-    query.to_tables(along::histories(&query.line, &places(query)?, &events))
+    query.to_tables(along::histories(&query.line, &positions(query)?, &events))
 }
 
 /// The places of NODE.
-fn places(query: &RodQuery) -> Outcome<Vec<LinePosition>> {
+fn positions(query: &RodQuery) -> Outcome<Vec<LinePosition>> {
     let (args, line) = (query.args(), &query.line);
     let mut list = Vec::new();
     for given in args.data_after(WHAT) {

@@ -74,7 +74,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let tables = tables(job, call)?;
     let transient = transient_of(job, args);
-    print_or_dispose(job, args, &tables, (transient, args.place(WHAT)))
+    print_or_dispose(job, args, &tables, (transient, args.position(WHAT)))
 }
 
 fn tables(job: &Job, call: &Call) -> Tables {

@@ -56,11 +56,11 @@ fn tables(query: &StructureQuery) -> Tables {
     let mut points = Vec::new();
     for value in query.args().data_after(WHAT) {
         let word = value.word().unwrap_or_default();
-        let Some(place) = structure.points.iter().position(|p| p.eq_ignore_ascii_case(word)) else {
+        let Some(position) = structure.points.iter().position(|p| p.eq_ignore_ascii_case(word)) else {
             let text = format!("{word} is no point of {}", structure.body);
             return Err(Diagnostic::error(text, value.span));
         };
-        points.push(place);
+        points.push(position);
     }
     let omitted = find_omitted_rows(query);
     let rows = (points.as_slice(), omitted.as_slice());

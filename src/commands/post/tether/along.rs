@@ -34,21 +34,22 @@ fn tables(query: &TetherQuery) -> Tables {
     let quantities = |at_nodes: bool| if at_nodes { tether.node_quantities() } else { tether.end_quantities() };
     let codes = || [true, false].into_iter().flat_map(|n| quantities(n).iter().map(|q| (q.code, Owner::Ours, q.code)));
     let word = args.word(NUMBER).unwrap_or("Y");
-    let code = choose(word, args.place(NUMBER), "quantity of the tether", codes())?;
+    let code = choose(word, args.position(NUMBER), "quantity of the tether", codes())?;
     let found = [true, false].into_iter().find_map(|n| Some((n, quantities(n).iter().position(|q| q.code == code)?)));
     let times = args.option(&AT).map(Given::numbers).unwrap_or_default();
     if times.len() > MAX_CURVES {
         let text = format!("{} instants: {MAX_CURVES} at most on one graph", times.len());
         return Err(Diagnostic::error(text, args.option(&AT).map_or(args.span, |g| g.span)));
     }
-    let far = |place: &usize, time: f64| (run.times.get(*place).copied().unwrap_or_default() - time).abs();
+    let far = |position: &usize, time: f64| (run.times.get(*position).copied().unwrap_or_default() - time).abs();
     let nearest = |time: &f64| (0..run.times.len()).min_by(|a, b| far(a, *time).total_cmp(&far(b, *time)));
-    let mut places: Vec<usize> = times.iter().filter_map(nearest).collect();
-    if places.is_empty() {
-        places.extend(run.times.len().checked_sub(1));
+    let mut positions: Vec<usize> = times.iter().filter_map(nearest).collect();
+    if positions.is_empty() {
+        positions.extend(run.times.len().checked_sub(1));
     }
-    let made = found.and_then(|(at_nodes, index)| tethered::table_along_tether(run, tether, at_nodes, index, &places));
+    let made =
+        found.and_then(|(at_nodes, index)| tethered::table_along_tether(run, tether, at_nodes, index, &positions));
     let table =
-        made.ok_or_else(|| Diagnostic::error(format!("{word} is no quantity of the tether"), args.place(NUMBER)))?;
+        made.ok_or_else(|| Diagnostic::error(format!("{word} is no quantity of the tether"), args.position(NUMBER)))?;
     Ok(vec![table])
 }

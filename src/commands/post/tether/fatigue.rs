@@ -45,7 +45,7 @@ fn ranges_and_fatigue(query: &TetherQuery) -> Outcome<(Table, Table)> {
     if !tether.towed {
         let name = &tether.name;
         let text = format!("tether {name} is installed: ranges and fatigue are of towed tethers [AQWA-TETHER 3.7]");
-        return Err(Diagnostic::error(text, args.place(WHAT)));
+        return Err(Diagnostic::error(text, args.position(WHAT)));
     }
     let made = find_statistics(query)?.fatigue(query.run, tether, fatigue_settings(args));
     let [ranges, fatigue] = query.to_outcome(made)?;

@@ -37,11 +37,11 @@ pub(crate) fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     };
     let mut next = begin;
     let mut list = Vec::new();
-    for (place, time) in run.times.iter().enumerate() {
+    for (position, time) in run.times.iter().enumerate() {
         if *time < next - slack || *time > end + slack {
             continue;
         }
-        list.push(place);
+        list.push(position);
         if increment > 0.0 {
             next = if next.is_finite() { next } else { *time };
             while next <= *time + slack {

@@ -113,7 +113,7 @@ impl TetherQuery<'_> {
         let Some(word) = self.args().word(NUMBER) else { return Ok(1) };
         let found = word.parse::<usize>().ok().filter(|n| (1..=most).contains(n));
         let wrong =
-            || Diagnostic::error(format!("{word} is no {what}: they are 1 to {most}"), self.args().place(NUMBER));
+            || Diagnostic::error(format!("{word} is no {what}: they are 1 to {most}"), self.args().position(NUMBER));
         found.ok_or_else(wrong)
     }
 }
@@ -123,8 +123,8 @@ fn keep_after_slack(run: &Tethered, args: &Args, list: Vec<usize>) -> Vec<usize>
     let Some(lasting) = args.option_number(&SLACK) else { return list };
     let slack = 1e-6 * run.settings.step;
     let began: Vec<f64> = run.happened.iter().filter(|e| e.change == RigChange::Slack).map(|e| e.time).collect();
-    let near = |place: &usize| {
-        let time = run.times.get(*place).copied().unwrap_or_default();
+    let near = |position: &usize| {
+        let time = run.times.get(*position).copied().unwrap_or_default();
         began.iter().any(|from| time >= from - slack && time <= from + lasting + slack)
     };
     list.into_iter().filter(near).collect()
@@ -134,7 +134,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     let tables = tables(job, call)?;
     let transient = transient_of(job, args);
-    print_or_dispose(job, args, &tables, (transient, args.place(NAME)))
+    print_or_dispose(job, args, &tables, (transient, args.position(NAME)))
 }
 
 fn tables(job: &Job, call: &Call) -> Tables {
@@ -144,7 +144,7 @@ fn tables(job: &Job, call: &Call) -> Tables {
     let Some(tether) = run.tethers.iter().find(|t| t.name.eq_ignore_ascii_case(name)) else {
         let names: Vec<&str> = run.tethers.iter().map(|t| t.name.as_str()).collect();
         let text = format!("{name} is no tether of the run: it has {}", names.join(" "));
-        return Err(Diagnostic::error(text, args.place(NAME)));
+        return Err(Diagnostic::error(text, args.position(NAME)));
     };
     let Some(chosen) = args.choice(WHAT) else { return Ok(Vec::new()) };
     chosen.check_record(args, args.data_after(WHAT).first(), "number")?;

@@ -16,7 +16,7 @@ fn tables(query: &TetherQuery) -> Tables {
     let made = match query.args().word(NUMBER) {
         Some("1") => statistics.type_one(query.run, query.tether),
         None | Some("2") => statistics.type_two(query.run, query.tether),
-        Some(_) => return Err(Diagnostic::error("statistics are of type 1 or 2", query.args().place(NUMBER))),
+        Some(_) => return Err(Diagnostic::error("statistics are of type 1 or 2", query.args().position(NUMBER))),
     };
     query.to_outcome(made)
 }

@@ -211,9 +211,9 @@ impl ArmRequest {
 
     /// Where the rolls begin: upright, or with the trim that is held.
     pub(super) fn start(&self, body: &Body, axis: f64) -> Attitude {
-        let [_, trim, heading] = body.place.turn;
+        let [_, trim, heading] = body.position.turn;
         let trim = if self.holds_trim { trim } else { 0.0 };
-        Attitude { origin: body.place.shift, roll: 0.0, trim, heading, axis }
+        Attitude { origin: body.position.shift, roll: 0.0, trim, heading, axis }
     }
 
     /// What heels the body about a roll axis.
@@ -294,8 +294,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let to_error = |e: ClassError| e.diagnostic(span, units);
     model.check_effects(SolveKind::Statics).map_err(to_error)?;
     let [yaw] = request.yaws.as_slice() else {
-        let place = args.option(&YAW).map_or(span, |given| given.span);
-        return Err(Diagnostic::error("RARM has one roll axis", place).help("STAB_OK and KG_ALLOW take several -YAW"));
+        let position = args.option(&YAW).map_or(span, |given| given.span);
+        return Err(
+            Diagnostic::error("RARM has one roll axis", position).help("STAB_OK and KG_ALLOW take several -YAW")
+        );
     };
     let mut still = StillBody::new(model, body, request.wave).map_err(to_error)?;
     still.weight_factor = request.weight_factor;

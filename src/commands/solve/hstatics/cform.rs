@@ -58,16 +58,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let varying: Vec<&Given> = [DRAFT, ROLL, PITCH].iter().filter_map(|option| args.option(option)).collect();
     let ([roll, trim], variation) = match varying.as_slice() {
         [] => {
-            let place = args.place(const { SPEC.number("ROLL") });
+            let position = args.position(const { SPEC.number("ROLL") });
             if second <= 0.0 {
-                return Err(Diagnostic::error("the step of the draft must be greater than zero", place)
+                return Err(Diagnostic::error("the step of the draft must be greater than zero", position)
                     .help("forms: CFORM DRAFT INC NUM; CFORM DRAFT ROLL TRIM -DRAFT INC NUM"));
             }
-            let place = args.place(const { SPEC.number("TRIM") });
+            let position = args.position(const { SPEC.number("TRIM") });
             if third.fract() != 0.0 || !(1.0..=MAX_ROWS).contains(&third) {
                 return Err(Diagnostic::error(
                     format!("the number of drafts must be a whole number between 1 and {MAX_ROWS}"),
-                    place,
+                    position,
                 )
                 .help("forms: CFORM DRAFT INC NUM; CFORM DRAFT ROLL TRIM -DRAFT INC NUM"));
             }
@@ -97,7 +97,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let still = StillBody::new(&job.model, body, wave).map_err(to_error)?;
     let mass = *still.mass();
-    let first = Attitude { roll, trim, ..Attitude::from_place(&body.place) };
+    let first = Attitude { roll, trim, ..Attitude::from_place(&body.position) };
     let condition = |n: i64| {
         let grown = variation.step * n as f64;
         let mut at = first;

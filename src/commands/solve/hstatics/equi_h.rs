@@ -55,11 +55,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         free[dof as usize] = false;
     }
     if free == [false; 3] {
-        let place = args.option(&FIX).map_or(span, |given| given.span);
-        return Err(Diagnostic::error("-FIX leaves no degree of freedom to find", place));
+        let position = args.option(&FIX).map_or(span, |given| given.span);
+        return Err(Diagnostic::error("-FIX leaves no degree of freedom to find", position));
     }
     let still = StillBody::new(&job.model, body, wave).map_err(to_error)?;
-    let found = still.balance(&Attitude::from_place(&body.place), free, &balance_limits(args)).map_err(to_error)?;
+    let found = still.balance(&Attitude::from_place(&body.position), free, &balance_limits(args)).map_err(to_error)?;
     let (key, name) = (Model::key(&body.name), body.name.clone());
     let mut said = Vec::new();
     let (matrix, _) = still.stiffness(&found.attitude).map_err(to_error)?;
@@ -75,11 +75,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let steps = found.steps;
     if let Some(body) = job.model.bodies.get_mut(&key) {
-        body.previous = body.place;
+        body.previous = body.position;
         // what rounding leaves of an angle is none
         let round = |angle: f64| if angle.abs() < 1e-12 { 0.0 } else { angle };
         let at = Attitude { roll: round(found.attitude.roll), trim: round(found.attitude.trim), ..found.attitude };
-        body.place = at.place();
+        body.position = at.position();
     }
     keep_wave(job, wave);
     said.into_iter().for_each(|text| job.warn(text, span));

@@ -125,7 +125,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let limits = read_limits(args, model, body);
     let points = find_down_flooding_points(model, body);
     let still = StillBody::new(model, body, request.wave).map_err(to_error)?;
-    let standing = Attitude::from_place(&body.place);
+    let standing = Attitude::from_place(&body.position);
     let around = model.surroundings();
     let wet = still.wet(&standing).map_err(to_error)?;
     let pose = standing.pose();

@@ -71,7 +71,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const BODY: DatumKey<str> = SPEC.word("BODY");
     let args = &call.args;
     let body = match args.word(BODY) {
-        Some(name) => find(&job.model.bodies, name, "body", args.place(BODY))?,
+        Some(name) => find(&job.model.bodies, name, "body", args.position(BODY))?,
         None => job.model.current_body().ok_or_else(|| {
             Diagnostic::error("no body is described yet", args.span).help("&DESCRIBE BODY describes one")
         })?,

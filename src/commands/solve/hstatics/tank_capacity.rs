@@ -44,7 +44,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let model = &job.model;
     let to_error = |e: windlass_model::ClassError| e.diagnostic(span, job.units);
-    let compartment = find(&model.compartments, args.word(TANK).unwrap_or_default(), "compartment", args.place(TANK))?;
+    let compartment =
+        find(&model.compartments, args.word(TANK).unwrap_or_default(), "compartment", args.position(TANK))?;
     let tank = Tank::new(model, compartment).map_err(to_error)?;
     let turn = [args.option_number(&ROLL).unwrap_or(0.0), args.option_number(&PITCH).unwrap_or(0.0), 0.0];
     let pose = Pose::from_place(&Place { turn, ..Place::default() });
@@ -52,7 +53,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [top, bottom] = tube.map(nalgebra::Vector3::from);
     let (length, step) = ((top - bottom).norm(), args.number(STEP).unwrap_or(1.0));
     if length / step > MAX_ROWS {
-        return Err(Diagnostic::error(format!("more than {MAX_ROWS} steps"), args.place(STEP)));
+        return Err(Diagnostic::error(format!("more than {MAX_ROWS} steps"), args.position(STEP)));
     }
     let mut soundings: Vec<f64> =
         (0..).map(|n| f64::from(n) * step).take_while(|s| *s < length * (1.0 - 1e-9)).collect();

@@ -112,8 +112,8 @@ const SUSPENDED: &str = "suspended";
 impl Columns {
     fn from_heads(heads: &[String]) -> Result<Self, InputError> {
         let find = |name: &'static str| {
-            let mut places = (0..).zip(heads).filter(|(_, head)| head.eq_ignore_ascii_case(name)).map(|(at, _)| at);
-            match (places.next(), places.next()) {
+            let mut positions = (0..).zip(heads).filter(|(_, head)| head.eq_ignore_ascii_case(name)).map(|(at, _)| at);
+            match (positions.next(), positions.next()) {
                 (found, None) => Ok(found),
                 _ => Err(InputError::Twice(name)),
             }

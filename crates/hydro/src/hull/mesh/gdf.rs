@@ -4,6 +4,10 @@
 use super::{MeshFile, at_line, number, shorten_for_message};
 use crate::hull::HullError;
 
+/// Reads the panels of a GDF file.
+///
+/// # Errors
+/// The line whose numbers are missing or wrong; panels that are not there.
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let text = String::from_utf8_lossy(bytes);
     let mut lines = text.lines().enumerate().map(|(n, line)| (n + 1, line));

@@ -7,6 +7,10 @@ use crate::hull::HullError;
 /// Records that say something of shape which is not read.
 const CURVED: [&str; 5] = ["curv", "curv2", "surf", "cstype", "vp"];
 
+/// Reads the faces of an OBJ file.
+///
+/// # Errors
+/// The line whose numbers are missing or wrong; a shape of curves.
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let text = String::from_utf8_lossy(bytes);
     let mut file = MeshFile::default();

@@ -9,6 +9,10 @@ const HEADER_BYTES: usize = 84;
 /// Bytes of a triangle: normal, three corners, two bytes that mean nothing.
 const BYTES_PER_TRIANGLE: usize = 50;
 
+/// Reads the triangles of an STL file, text or binary.
+///
+/// # Errors
+/// The line or triangle that is not whole.
 pub fn read(bytes: &[u8]) -> Result<MeshFile, HullError> {
     let stated = bytes.get(80..HEADER_BYTES).and_then(|b| b.try_into().ok()).map(|b| u32::from_le_bytes(b) as usize);
     let fits = stated.and_then(|n| n.checked_mul(BYTES_PER_TRIANGLE)).and_then(|n| n.checked_add(HEADER_BYTES))

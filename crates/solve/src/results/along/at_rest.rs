@@ -21,7 +21,7 @@ pub(crate) fn visit_lines_at_rest(
     mut tell: impl FnMut(&str, &dyn DynamicConnector, &Situation, &[f64]) -> Result<(), SolveError>,
 ) -> Result<(), SolveError> {
     let around = ambient(model, None).map_err(SolveError::new)?;
-    let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::from_place(&b.place)).collect();
+    let poses: Vec<_> = model.bodies.values().map(|b| windlass_base::pose::Pose::from_place(&b.position)).collect();
     let surroundings = model.surroundings();
     let mut report = |name: &str, element: &dyn ConnectorElement, ends: &[EndAttachment]| {
         let Some(line) = element.as_dynamic() else { return Ok(()) };

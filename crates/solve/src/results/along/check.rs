@@ -100,16 +100,16 @@ pub fn check(line: &LineResults, code: &Code, events: &[RunEvent]) -> Result<Tab
         .collect::<Result<_, ClassError>>()
         .map_err(|error| SolveError { who: Some(line.name.to_string()), error })?;
     let first = run.history.rows().next().unwrap_or_default();
-    let rest: Vec<Option<NodeRow>> = line.places.iter().map(|p| columns.node(*p, first)).collect();
+    let rest: Vec<Option<NodeRow>> = line.positions.iter().map(|p| columns.node(*p, first)).collect();
     let length = line.length(first);
     let lrfd = checked.iter().any(|c| matches!(c, Checked::Lrfd(_)));
-    let mut worst: Vec<Option<Worst>> = vec![None; line.places.len()];
+    let mut worst: Vec<Option<Worst>> = vec![None; line.positions.len()];
     let mut row = Vec::new();
     for event in events {
         line.row(event, &mut row);
         let time = row.first().copied().unwrap_or(f64::NAN);
-        for ((place, rest), worst) in line.places.iter().zip(&rest).zip(&mut worst) {
-            let Some(node) = columns.node(*place, &row) else { continue };
+        for ((position, rest), worst) in line.positions.iter().zip(&rest).zip(&mut worst) {
+            let Some(node) = columns.node(*position, &row) else { continue };
             for (_, segment, section) in line.sides(&node, &row) {
                 let Some(how) = checked.get(segment) else { continue };
                 let acting = acting(&node, section);

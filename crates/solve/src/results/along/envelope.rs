@@ -45,10 +45,10 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
         })
         .collect();
     let mut rows = Vec::new();
-    let length = line.places.last().and_then(|p| seen.extremes(*p, NodeQuantity::Arc)).map_or(f64::NAN, |s| s.mean);
+    let length = line.positions.last().and_then(|p| seen.extremes(*p, NodeQuantity::Arc)).map_or(f64::NAN, |s| s.mean);
     let (mut worst, mut wound): (Option<(f64, usize)>, bool) = (None, false);
-    for (number, place) in line.numbered_nodes() {
-        let of = |quantity: NodeQuantity| seen.extremes(place, quantity);
+    for (number, position) in line.numbered_nodes() {
+        let of = |quantity: NodeQuantity| seen.extremes(position, quantity);
         let arc = of(NodeQuantity::Arc).map(|s| s.mean);
         wound |= of(NodeQuantity::Arc).is_some_and(|s| s.most.value - s.least.value > 1e-6 * length);
         let used = arc.zip(of(NodeQuantity::Effective)).and_then(|(arc, tension)| {
@@ -64,7 +64,7 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
         {
             worst = Some((used, number));
         }
-        rows.push((number, place, arc, used));
+        rows.push((number, position, arc, used));
     }
     let mut table = Table::new("Envelope Along a Line")
         .fact("Line", line.name, Dim::None)
@@ -75,8 +75,8 @@ pub fn envelope(line: &LineResults, events: &[RunEvent]) -> Result<Table, SolveE
     for (group, sign, quantity, dim) in quantities {
         let digits = if *sign == "C" { CLEARANCE } else { Digits::Usual };
         let names = ["Min", "Mean", "Max"].map(|part| format!("{sign} {part}"));
-        table = table.columns(group, names.each_ref().map(String::as_str), *dim, digits, |(_, place, ..)| {
-            let found = seen.extremes(*place, *quantity);
+        table = table.columns(group, names.each_ref().map(String::as_str), *dim, digits, |(_, position, ..)| {
+            let found = seen.extremes(*position, *quantity);
             found.map_or([None; 3], |s| [s.least.value, s.mean, s.most.value].map(Some))
         });
     }

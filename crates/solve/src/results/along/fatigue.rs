@@ -35,12 +35,12 @@ pub fn fatigue_table(
     }
     let mut row = Vec::new();
     // one for each side: where two segments meet they go by curves and stresses of their own
-    let mut records: Vec<[NodeHistory; 2]> = line.places.iter().map(|_| Default::default()).collect();
+    let mut records: Vec<[NodeHistory; 2]> = line.positions.iter().map(|_| Default::default()).collect();
     for event in events {
         line.row(event, &mut row);
         let time = row.first().copied().unwrap_or(f64::NAN);
-        for (records, place) in records.iter_mut().zip(&line.places) {
-            let Some(node) = line.columns.node(*place, &row) else { continue };
+        for (records, position) in records.iter_mut().zip(&line.positions) {
+            let Some(node) = line.columns.node(*position, &row) else { continue };
             for (side, segment, section) in line.sides(&node, &row) {
                 let Some(record) = records.get_mut(side) else { continue };
                 record.take((time, node.arc, segment));

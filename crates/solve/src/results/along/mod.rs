@@ -126,7 +126,7 @@ pub struct LineResults<'a> {
     columns: &'a AlongColumns,
     sections: Vec<ResultSection>,
     /// Places of the nodes that were ever there, among those that are kept.
-    places: Vec<usize>,
+    positions: Vec<usize>,
 }
 
 impl<'a> LineResults<'a> {
@@ -151,26 +151,26 @@ impl<'a> LineResults<'a> {
             };
             return Err(ClassError::new(format!("{name} has no nodes along its length")).help(help));
         };
-        let there = |place: &usize| match run.history.is_empty() {
-            true => run.envelopes.get(link).is_some_and(|e| e.extremes(*place, NodeQuantity::Arc).is_some()),
-            false => run.history.rows().any(|row| columns.node(*place, row).is_some()),
+        let there = |position: &usize| match run.history.is_empty() {
+            true => run.envelopes.get(link).is_some_and(|e| e.extremes(*position, NodeQuantity::Arc).is_some()),
+            false => run.history.rows().any(|row| columns.node(*position, row).is_some()),
         };
-        let places: Vec<usize> = (0..columns.numbers.len()).filter(there).collect();
-        if places.is_empty() {
+        let positions: Vec<usize> = (0..columns.numbers.len()).filter(there).collect();
+        if positions.is_empty() {
             return Err(ClassError::new(format!("{name} did not act at any stored instant")));
         }
         let sections = sections(&run.model, &found.name);
-        Ok(LineResults { run, name: &found.name, link, columns, sections, places })
+        Ok(LineResults { run, name: &found.name, link, columns, sections, positions })
     }
 
     /// How many nodes it has.
     pub fn nodes(&self) -> usize {
-        self.places.len()
+        self.positions.len()
     }
 
     /// Numbers of the nodes with their places.
     fn numbered_nodes(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        self.places.iter().enumerate().map(|(index, place)| (index + 1, *place))
+        self.positions.iter().enumerate().map(|(index, position)| (index + 1, *position))
     }
 
     /// The row of an event: between two stored ones on the straight line.

@@ -52,8 +52,8 @@ fn periods(name: &str, nodes: &[LineNode], modes: &[LineMode]) -> Table {
         .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(_, mode, _)| mode.frequency)
         .column("Most", "Node", Dim::None, Digits::Usual, |(.., most)| most + 1)
         .columns("Most", ["Arc", "X", "Y", "Z"], Dim::Length, Digits::Usual, |(.., most)| {
-            let place = |n: &LineNode| [n.arc, n.position.x, n.position.y, n.position.z].map(|v| Some(clean(v)));
-            nodes.get(*most).map_or([None; 4], place)
+            let position = |n: &LineNode| [n.arc, n.position.x, n.position.y, n.position.z].map(|v| Some(clean(v)));
+            nodes.get(*most).map_or([None; 4], position)
         })
         .columns("Share of Motion", ["Along", "In Plane", "Across"], Dim::None, Digits::Decimals(3), |(_, mode, _)| {
             shares(nodes, &mode.shape).map(|s| if s < 5e-4 { 0.0 } else { s })
@@ -91,8 +91,8 @@ fn shares(nodes: &[LineNode], shape: &[Vector3<f64>]) -> [f64; 3] {
 }
 
 /// A coordinate (m) as zero where it is but rounding.
-fn clean(place: f64) -> f64 {
-    if place.abs() < 1e-9 { 0.0 } else { place }
+fn clean(position: f64) -> f64 {
+    if position.abs() < 1e-9 { 0.0 } else { position }
 }
 
 /// The shape of one mode.

@@ -56,7 +56,7 @@ pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> 
     // a node that a winch has not made yet has no row
     let numbered = line.numbered_nodes();
     let nodes: Vec<(usize, NodeRow)> =
-        numbered.filter_map(|(number, place)| Some((number, line.columns.node(place, &row)?))).collect();
+        numbered.filter_map(|(number, position)| Some((number, line.columns.node(position, &row)?))).collect();
     let mut table = Table::new("Along a Line at an Instant")
         .fact("Line", line.name, Dim::None)
         .fact("Model", Idealisation::Dynamic, Dim::None)
@@ -83,20 +83,20 @@ pub fn shape(line: &LineResults, event: &RunEvent) -> Result<Table, SolveError> 
 /// A node that the line has not, a distance beyond its ends at every event.
 pub fn histories(line: &LineResults, wanted: &[LinePosition], events: &[RunEvent]) -> Result<Table, SolveError> {
     let (run, bends) = (line.run, line.columns.bends);
-    let (mut places, mut groups, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
-    for (index, place) in wanted.iter().enumerate() {
-        match place {
+    let (mut positions, mut groups, mut arcs) = (Vec::new(), Vec::new(), Vec::new());
+    for (index, position) in wanted.iter().enumerate() {
+        match position {
             LinePosition::Node(number) => {
-                let found = number.checked_sub(1).and_then(|i| line.places.get(i));
+                let found = number.checked_sub(1).and_then(|i| line.positions.get(i));
                 let found = found.ok_or_else(|| {
                     let text = format!("{} has no node {number}: they are 1 to {}", line.name, line.nodes());
                     SolveError::new(ClassError::new(text))
                 })?;
-                places.push(Ok(*found));
+                positions.push(Ok(*found));
                 groups.push(format!("Node {number}"));
             }
             LinePosition::Arc(arc) => {
-                places.push(Err(*arc));
+                positions.push(Err(*arc));
                 let name = format!("Place {}", index + 1);
                 arcs.push((name.clone(), *arc));
                 groups.push(name);
@@ -104,11 +104,11 @@ pub fn histories(line: &LineResults, wanted: &[LinePosition], events: &[RunEvent
         }
     }
     let mut table = EventTable::new("Places Along a Line", (&run.history, events), |row| {
-        let node = |place: &Result<usize, f64>| match place {
-            Ok(place) => line.columns.node(*place, row),
+        let node = |position: &Result<usize, f64>| match position {
+            Ok(position) => line.columns.node(*position, row),
             Err(arc) => line.at_arc(*arc, row),
         };
-        Ok(places.iter().map(node).collect::<Vec<Option<NodeRow>>>())
+        Ok(positions.iter().map(node).collect::<Vec<Option<NodeRow>>>())
     })?
     .fact("Line", line.name, Dim::None)
     .fact("Model", Idealisation::Dynamic, Dim::None);

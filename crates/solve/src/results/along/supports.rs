@@ -20,20 +20,20 @@ pub fn supports(line: &LineResults, magnitude: Magnitude, events: &[RunEvent]) -
         _ => return Err(line.error("it lies on no supports: a pipe assembly does")),
     };
     let acts = |name: &&String| model.connectors.get(&Model::key(name)).is_some_and(|c| c.active);
-    let (mut places, mut grounded) = (Vec::new(), Vec::new());
+    let (mut positions, mut grounded) = (Vec::new(), Vec::new());
     for (end, name) in names.iter().filter(acts).enumerate() {
         let Some(at) = layout.wrench(line.link, end) else {
             grounded.push(format!("{name} stands in the ground, and the run keeps no force on it"));
             continue;
         };
-        places.push((name, at));
+        positions.push((name, at));
     }
     let mut table = EventTable::new("Forces on Supports", (&line.run.history, events), |row| {
         let force = |at: usize| row.get(at..at + 3).map_or(Vector3::repeat(f64::NAN), Vector3::from_column_slice);
-        Ok(places.iter().map(|(_, at)| magnitude.components_and_magnitude(&force(*at))).collect::<Vec<_>>())
+        Ok(positions.iter().map(|(_, at)| magnitude.components_and_magnitude(&force(*at))).collect::<Vec<_>>())
     })?
     .fact("Line", line.name, Dim::None);
-    for (index, (name, _)) in places.iter().enumerate() {
+    for (index, (name, _)) in positions.iter().enumerate() {
         table = table.columns(name, ["FX", "FY", "FZ", "Mag."], Dim::Force, |forces| {
             forces.get(index).copied().unwrap_or([f64::NAN; 4])
         });

@@ -17,18 +17,18 @@ pub fn touchdown(line: &LineResults, events: &[RunEvent]) -> Result<Table, Solve
     let mut table = EventTable::new("Touchdown", (&line.run.history, events), |row| {
         let there: Vec<(usize, NodeRow)> = line
             .numbered_nodes()
-            .filter_map(|(number, place)| Some((number, line.columns.node(place, row)?)))
+            .filter_map(|(number, position)| Some((number, line.columns.node(position, row)?)))
             .collect();
         let Some(first) = there.iter().position(|(_, n)| n.clearance <= 0.0) else {
             return Ok(Touchdown { grounded: if there.is_empty() { f64::NAN } else { 0.0 }, ..Touchdown::NONE });
         };
         let Some((number, node)) = there.get(first) else { return Ok(Touchdown::NONE) };
         let before = |back: usize| first.checked_sub(back).and_then(|i| there.get(i)).map(|(_, n)| n);
-        let (arc, place) = interpolate_touchdown(before(2), before(1), node);
+        let (arc, position) = interpolate_touchdown(before(2), before(1), node);
         let lies = |pair: &&[(usize, NodeRow)]| pair.iter().all(|(_, n)| n.clearance <= 0.0);
         let pairs = there.windows(2).filter(lies).filter_map(|p| Some(p.last()?.1.arc - p.first()?.1.arc));
         let (node_arc, tension) = (node.arc, node.effective);
-        Ok(Touchdown { node: *number as f64, node_arc, tension, arc, place, grounded: pairs.sum() })
+        Ok(Touchdown { node: *number as f64, node_arc, tension, arc, position, grounded: pairs.sum() })
     })?
     .fact("Line", line.name, Dim::None)
     .fact("Model", Idealisation::Dynamic, Dim::None)
@@ -36,7 +36,7 @@ pub fn touchdown(line: &LineResults, events: &[RunEvent]) -> Result<Table, Solve
     .columns("First Node on Bottom", ["Node Arc"], Dim::Length, |t| [t.node_arc])
     .columns("First Node on Bottom", ["Tension"], Dim::Force, |t| [t.tension])
     .columns("Touchdown", ["Arc"], Dim::Length, |t| [t.arc])
-    .columns("Touchdown", ["X", "Y", "Z"], Dim::Length, |t| t.place)
+    .columns("Touchdown", ["X", "Y", "Z"], Dim::Length, |t| t.position)
     .columns("On Bottom", ["Length"], Dim::Length, |t| [t.grounded])
     .build();
     table.note(
@@ -53,7 +53,7 @@ struct Touchdown {
     tension: f64,
     /// Distance (m) and place (m) at which the line begins to lie.
     arc: f64,
-    place: [f64; 3],
+    position: [f64; 3],
     /// Unstretched length on the bottom (m).
     grounded: f64,
 }
@@ -65,7 +65,7 @@ impl Touchdown {
         node_arc: f64::NAN,
         tension: f64::NAN,
         arc: f64::NAN,
-        place: [f64::NAN; 3],
+        position: [f64::NAN; 3],
         grounded: f64::NAN,
     };
 }

@@ -12,7 +12,7 @@ use windlass_model::{ClassError, ResponseRow, Responses};
 /// A body that rides on the waves about its place.
 #[derive(Debug)]
 pub(super) struct RaoMotion {
-    place: Place,
+    position: Place,
     sea: Option<Arc<Sea>>,
     /// Of each wave its frequency (rad/s), and of each degree of freedom the factors of cos(w t) and sin(w t) (m, rad).
     waves: Vec<(f64, [(f64, f64); 6])>,
@@ -94,9 +94,9 @@ fn response_between(table: &Responses, from: f64, frequency: f64) -> Result<[Com
 
 impl RaoMotion {
     /// That of a body at a place.
-    pub(super) fn new(place: Place, table: &Responses, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
-        let [x, y, _] = place.shift;
-        let yaw = place.turn[2];
+    pub(super) fn new(position: Place, table: &Responses, sea: Option<&Arc<Sea>>) -> Result<Self, ClassError> {
+        let [x, y, _] = position.shift;
+        let yaw = position.turn[2];
         let (cos, sin) = unit_vector(yaw);
         let components = sea.map_or(&[][..], |s| s.components.as_slice());
         let mut waves = Vec::with_capacity(components.len());
@@ -118,7 +118,7 @@ impl RaoMotion {
             let [heave, roll, pitch, yawing] = rest;
             waves.push((wave.frequency, [(xr, xi), (yr, yi), heave, roll, pitch, yawing]));
         }
-        Ok(RaoMotion { place, sea: sea.cloned(), waves })
+        Ok(RaoMotion { position, sea: sea.cloned(), waves })
     }
 
     /// The ramp of the sea with its derivatives: `(1 - cos(pi t/T))/2`.
@@ -148,7 +148,7 @@ impl Prescribed for RaoMotion {
                 sums[2][i] -= w * w * value;
             }
         }
-        let (grown, mean) = (self.ramp_factor(time), self.place.values());
+        let (grown, mean) = (self.ramp_factor(time), self.position.values());
         let mut dofs: DofMotion = [[0.0; 6]; 3];
         for i in 0..6 {
             let [value, rate, second] = super::product(grown, [sums[0][i], sums[1][i], sums[2][i]]);

@@ -34,8 +34,8 @@ impl Bending {
         for plane in 0..2 {
             for index in 0..self.held[plane].len() {
                 let (unknown, hold) = self.held[plane][index];
-                let [place, velocity, _] = self.target(unknown, hold, plane, stage);
-                self.now[plane].deflection[unknown] = place;
+                let [position, velocity, _] = self.target(unknown, hold, plane, stage);
+                self.now[plane].deflection[unknown] = position;
                 self.now[plane].velocity[unknown] = velocity;
             }
         }
@@ -57,8 +57,8 @@ impl Bending {
             DofConstraint::Vertical => [rest(0) - axis.tilt[plane], -rate, -growth],
             DofConstraint::Upright => {
                 let [spin, change] = attachment.spin;
-                let place = rest(1) + tilt(attachment.upright)[plane] - axis.tilt[plane];
-                [place, turn(spin) - rate, turn(change) - growth]
+                let position = rest(1) + tilt(attachment.upright)[plane] - axis.tilt[plane];
+                [position, turn(spin) - rate, turn(change) - growth]
             }
             DofConstraint::Fixed => {
                 let at = anchor(stage) + Vector3::z() * (share * tension.length);

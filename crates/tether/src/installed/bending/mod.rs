@@ -284,18 +284,18 @@ impl Bending {
             let [x, y] = &mut self.loads;
             let (Some(x), Some(y)) = (x.get_mut(index), y.get_mut(index)) else { continue };
             (*x, *y) = ([0.0; 4], [0.0; 4]);
-            let places = [0, 1].map(|p| beam::of_element(&motion[p].deflection, index));
+            let positions = [0, 1].map(|p| beam::of_element(&motion[p].deflection, index));
             let speeds = [0, 1].map(|p| beam::of_element(&motion[p].velocity, index));
             if self.axial > 0.0 {
                 let unit = beam::geometric(1.0, length);
-                for (slope, place) in self.arc_slope.iter_mut().zip(&places) {
-                    beam::gather(slope, index, &beam::times(&unit, place));
+                for (slope, position) in self.arc_slope.iter_mut().zip(&positions) {
+                    beam::gather(slope, index, &beam::times(&unit, position));
                 }
             }
             let share = cell.length / self.length;
             for (a, weight) in beam::GAUSS {
                 let shape = beam::deflection(a, length);
-                let [w, dw] = [&places, &speeds].map(|of| [beam::dot(&of[0], &shape), beam::dot(&of[1], &shape)]);
+                let [w, dw] = [&positions, &speeds].map(|of| [beam::dot(&of[0], &shape), beam::dot(&of[1], &shape)]);
                 let force = cell.force(start + a * share, [w, dw], stage);
                 beam::add(x, weight * length * (force[0] - cell.weight / stretch * stage.axis.across[0].z), &shape);
                 beam::add(y, weight * length * (force[1] - cell.weight / stretch * stage.axis.across[1].z), &shape);
@@ -380,9 +380,13 @@ impl Bending {
         let (mut growth, mut driven, mut yielding) = (0.0, 0.0, 0.0);
         for plane in 0..2 {
             let (slope, now) = (&self.arc_slope[plane], &self.now[plane]);
-            let places = if second { &self.trial[plane].deflection } else { &now.deflection };
+            let positions = if second { &self.trial[plane].deflection } else { &now.deflection };
             let ahead = now.deflection.iter().zip(&now.velocity).map(|(x, v)| x + LOOK_AHEAD * dt * v);
-            growth += slope.iter().zip(ahead.zip(places)).map(|(g, (ahead, place))| g * (ahead - place)).sum::<f64>();
+            growth += slope
+                .iter()
+                .zip(ahead.zip(positions))
+                .map(|(g, (ahead, position))| g * (ahead - position))
+                .sum::<f64>();
             driven += dot(slope, &self.found[stage][plane]);
             yielding += dot(slope, &self.arc_response[plane]);
         }

@@ -43,11 +43,11 @@ fn case(compatibility: TowedCompatibility, depth: Option<f64>) -> Towed {
 
 /// Elevation and flow at a place of the tether's axes.
 fn flow_at(waters: &Waters, time: f64, x: f64, y: f64, height: f64) -> (f64, TowedFlow) {
-    let (mut turns, mut place) = (Vec::new(), Vec::new());
+    let (mut turns, mut position) = (Vec::new(), Vec::new());
     waters.at_time(time, &mut turns);
-    waters.at_place(x, y, &mut place);
-    let elevation = waters.elevation(&turns, &place);
-    (elevation, waters.flow(&turns, &place, height, elevation))
+    waters.at_place(x, y, &mut position);
+    let elevation = waters.elevation(&turns, &position);
+    (elevation, waters.flow(&turns, &position, height, elevation))
 }
 
 #[test]
