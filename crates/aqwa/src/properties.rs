@@ -88,12 +88,12 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The drag coefficient in force.
+    /// The drag coefficient in force (no unit).
     pub fn drag(&self) -> f64 {
         self.drag.map_or(DEFAULT_DRAG, |given| given.value_or(DEFAULT_DRAG))
     }
 
-    /// The added mass coefficient in force.
+    /// The added mass coefficient in force (no unit).
     pub fn added_mass(&self) -> f64 {
         self.added_mass.map_or(DEFAULT_ADDED_MASS, |given| given.value_or(DEFAULT_ADDED_MASS))
     }

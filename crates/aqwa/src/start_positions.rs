@@ -22,7 +22,7 @@ impl Deck {
         Some((Vector3::new(x, y, z) + turn * (node - centre)).into())
     }
 
-    /// Unstretched length of a tether: the sum of its elements.
+    /// Unstretched length of a tether in the deck's unit of length: the sum of its elements.
     pub fn unstretched_length(&self, tether: &Tether) -> Option<f64> {
         let position = |node: i64| self.nodes.get(&node).map(|node| Vector3::from(node.position));
         let mut length = 0.0;
@@ -32,7 +32,7 @@ impl Deck {
         Some(length)
     }
 
-    /// Distance at the start between the anchor (or trailing end) of a tether and its node on the structure.
+    /// Distance at the start, in the deck's unit of length, between the anchor (or trailing end) of a tether and its node on the structure.
     pub fn span(&self, tether: &Tether) -> Option<f64> {
         let structure = self.structure(tether.structure.value)?;
         let anchor = Vector3::from(self.nodes.get(&tether.anchor.value)?.position);

@@ -126,7 +126,7 @@ impl Tether {
         [self.description.anchor, self.description.vessel].iter().flatten().any(|spring| spring.towed)
     }
 
-    /// Stiffnesses in force at the anchor or trailing end, and at the vessel; see [`in_force`].
+    /// Stiffnesses in force, inline and two rotational in the deck's units, at the anchor or trailing end, and at the vessel; see [`in_force`].
     pub fn springs(&self) -> [[f64; 3]; 2] {
         let towed = self.is_towed();
         [self.description.anchor, self.description.vessel].map(|spring| in_force(spring, towed))

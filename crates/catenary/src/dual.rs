@@ -47,7 +47,7 @@ impl Var {
         Var { value, by }
     }
 
-    /// The derivative by the unknown of the span.
+    /// The derivative by the unknown of the span, in this number's unit over the unknown's.
     pub fn by_unknown(self) -> f64 {
         let [.., unknown] = self.by;
         unknown

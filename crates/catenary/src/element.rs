@@ -141,7 +141,7 @@ pub(super) fn mean_strain(segment: &Segment, law: Option<&StretchLaw>, a: f64, b
     }
 }
 
-/// V at the upper end of a line that touches down below it: from (T + EA)2 = (H + EA)2 + 2 EA w z.
+/// V (N) at the upper end of a line that touches down below it: from (T + EA)2 = (H + EA)2 + 2 EA w z.
 pub fn vertical_of_contact(segment: &Segment, h: f64, z: f64) -> f64 {
     let rise = segment.weight * z;
     let stiff = h + segment.ea;

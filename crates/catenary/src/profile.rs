@@ -16,7 +16,7 @@ impl Tilt {
         Tilt { sin: slope / hypotenuse, cos: 1.0 / hypotenuse }
     }
 
-    /// Vertical over horizontal distance.
+    /// Vertical over horizontal distance (a ratio; above zero where the bottom rises away from the anchor).
     pub fn slope(self) -> f64 {
         self.sin / self.cos
     }
@@ -83,7 +83,7 @@ impl SeabedProfile {
         self.tilts[face]
     }
 
-    /// A vertex, a number up to [`Profile::faces`]: distance from the anchor and elevation.
+    /// A vertex, a number up to [`Profile::faces`]: distance from the anchor and elevation (m).
     pub fn vertex(&self, vertex: usize) -> (f64, f64) {
         (self.at[vertex], self.z[vertex])
     }

@@ -159,12 +159,12 @@ impl LineClass {
         self.per_line.number(&o::DEPANCHOR)
     }
 
-    /// -SLOPE.
+    /// -SLOPE: fall of the bottom toward the anchor over the distance (a ratio); none where it was not given.
     pub fn slope(&self) -> Option<f64> {
         self.per_line.number(&o::SLOPE)
     }
 
-    /// -FRICTION.
+    /// -FRICTION: the coefficient of seabed friction (a ratio).
     pub fn friction(&self) -> f64 {
         self.per_line.number(&o::FRICTION).unwrap_or(0.0)
     }

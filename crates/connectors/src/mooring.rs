@@ -167,7 +167,7 @@ impl Mooring {
     }
 }
 
-/// Segments and joints of a line's sections; the first is as long as the placement says, where it does.
+/// Segments and joints of a line's sections (m, N, N/m); the first is as long as the placement says, where it does.
 pub fn segments_and_joints(
     sections: &[LineSection],
     position: &Placement,

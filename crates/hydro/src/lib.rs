@@ -213,7 +213,7 @@ pub fn move_wrench(wrench: &Six, arm: Vector3<f64>) -> Six {
     carried
 }
 
-/// A stiffness block between two points as one between the origins that the arms lead from, for a wrench that keeps its arm.
+/// A stiffness block (N/m, N, N m) between two points as one between the origins that the arms lead from, for a wrench that keeps its arm.
 pub fn move_stiffness(block: &Matrix6<f64>, row: Vector3<f64>, column: Vector3<f64>) -> Matrix6<f64> {
     let mut moved = *block;
     // the far point moves by turn x arm: columns
@@ -314,12 +314,12 @@ impl Floating {
         Ok(Floating { mass, loads, added_mass, damping })
     }
 
-    /// The added mass in a pose, global axes.
+    /// The added mass about the body's origin in a pose (kg, kg m, kg m2), global axes.
     pub fn added_mass(&self, pose: &Pose) -> Matrix6<f64> {
         in_pose(&self.added_mass, pose)
     }
 
-    /// The linear damping in a pose, global axes.
+    /// The linear damping about the body's origin in a pose (N s/m, N s, N m s), global axes.
     pub fn linear_damping(&self, pose: &Pose) -> Matrix6<f64> {
         in_pose(&self.damping, pose)
     }

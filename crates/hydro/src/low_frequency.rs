@@ -96,7 +96,7 @@ impl LowPass {
         *before = value;
     }
 
-    /// What is slow of the signal.
+    /// The low-frequency part of the signal, in the signal's unit.
     pub fn low_frequency_part(state: &[f64; Self::STATES]) -> f64 {
         let [value, a, _, b, bi, c, ci] = state;
         let [first, second, third] = RESIDUES;
@@ -173,13 +173,15 @@ impl LowFrequencyPosition {
         Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0)
     }
 
-    /// The small rotation by which a body in these axes (body to global) is turned from those of the heading: its rotation vector, in axes of the
+    /// The small rotation by which a body in these axes (body to global) is turned from those of the heading: its rotation vector (rad), in
+    /// axes of the
     /// heading.
     pub fn rotation(&self, axes: &Matrix3<f64>) -> Vector3<f64> {
         UnitQuaternion::from(Rotation3::from_matrix_unchecked(self.axes().transpose() * axes)).scaled_axis()
     }
 
-    /// What gives of a rate of rotation (global axes) the rates of [`LowFrequencyPosition::rotation`] at a heading that stays. The mean of such rates over whole periods
+    /// What gives of a rate of rotation (global axes) the rates of [`LowFrequencyPosition::rotation`] at a heading that stays. The mean of
+    /// such rates over whole periods
     /// is nothing, where that of the rate of rotation is not: an axis that goes round a cone turns the body.
     pub fn rates(&self, axes: &Matrix3<f64>) -> Matrix3<f64> {
         let turned = self.rotation(axes);

@@ -36,7 +36,7 @@ pub struct EndTangent {
 }
 
 impl EndTangent {
-    /// The one tangent of a body whose velocity and acceleration follow its position as `c` and `m` times it.
+    /// The one tangent (N/m) of a body whose velocity and acceleration follow its position as `c` and `m` times it.
     pub fn by_position(&self, c: f64, m: f64) -> Matrix12 {
         self.position + self.velocity * c + self.acceleration * m
     }

@@ -56,7 +56,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// Their sum.
+    /// Their sum (J).
     pub fn total(&self) -> f64 {
         self.ends[0] + self.ends[1] + self.fluid + self.damping + self.bottom + self.supports + self.given
     }

@@ -17,7 +17,7 @@ pub(super) struct HingeSide {
 }
 
 impl HingeSide {
-    /// The curvature at rest as a vector, turned with the edge.
+    /// The curvature at rest as a vector (1/m), turned with the edge.
     pub fn rest(&self) -> Vector3<f64> {
         self.director * self.natural[0] + self.direction.cross(&self.director) * self.natural[1]
     }

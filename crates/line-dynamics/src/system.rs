@@ -125,7 +125,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         }
     }
 
-    /// Product of the kept rows of an end with a change of all unknowns.
+    /// Product of the kept rows of an end (N/m) with a change of all unknowns (m): the change of its force (N).
     pub fn ends_by(&self, side: usize, change: &[f64]) -> Vector3<f64> {
         let node = if side == 0 { 0 } else { self.residual.len() / W - 1 };
         Vector3::from_fn(|i, _| BandMatrix::<H, S>::product(&self.rows[side][i], W * node + i, change))
@@ -151,7 +151,7 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         }
     }
 
-    /// Residual of a node as a vector.
+    /// Residual of a node as a vector (N).
     pub fn residual_at(&self, node: usize) -> Vector3<f64> {
         Vector3::from_column_slice(&self.residual[W * node..W * node + 3])
     }

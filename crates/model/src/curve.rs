@@ -94,7 +94,7 @@ pub struct Curve {
 }
 
 impl Curve {
-    /// Its value at an argument: straight between its points, and that of the first or the last beyond them.
+    /// Its value at an argument, each in the curve's own unit: straight between its points, and that of the first or the last beyond them.
     pub fn value_at(&self, at: f64) -> f64 {
         let after = self.points.partition_point(|(x, _)| *x <= at);
         match (after.checked_sub(1).and_then(|n| self.points.get(n)), self.points.get(after)) {

@@ -89,12 +89,13 @@ impl TetherEnds {
     /// Stiffness of a spring that is not given [AQWA-TETHER A.2 and 8.1.14], in N/m or N m/rad where the card's unit is a thousand.
     pub const DEFAULT_SPRING_STIFFNESS: f64 = 1.0e18;
 
-    /// How many tethers it stands for.
+    /// How many tethers it stands for (a number, one or more).
     pub fn count(&self) -> f64 {
         self.group.max(1) as f64
     }
 
-    /// Springs in force at the fairlead and at the far end. Installed: [`TetherEnds::DEFAULT_SPRING_STIFFNESS`] all where none are given and along the tether
+    /// Springs in force at the fairlead and at the far end: inline (N/m), two rotational (N m/rad). Installed:
+    /// [`TetherEnds::DEFAULT_SPRING_STIFFNESS`] all where none are given and along the tether
     /// where not above zero; rotational ones below zero are none. Towed: STIFF where zero or not given.
     pub fn springs_in_force(&self) -> [[f64; 3]; 2] {
         self.springs.map(|given| {

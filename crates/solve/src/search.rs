@@ -107,7 +107,8 @@ impl<'a> EquilibriumSearch<'a> {
         self.system.evaluate_part(state, self.part)
     }
 
-    /// The largest residual acceleration over the tolerance, or deflection of a tie that its force does not explain, and the unknown.
+    /// The largest residual acceleration over the tolerance (a ratio; below 1 is rest), or deflection of a tie that its force does not
+    /// explain, and the unknown.
     pub fn worst(&self, unknowns: &Unknowns, state: &SystemState) -> (f64, usize) {
         let (worst, at) = unknowns.worst(&unknowns.residual(state), self.options);
         // a number that is none stays the worst

@@ -91,7 +91,7 @@ impl Ties {
         forces
     }
 
-    /// The stiffness of the ties, block by block: the row's body, the column's and -d(wrench about its origin)/d(motion).
+    /// The stiffness of the ties, block by block: the row's body, the column's and -d(wrench about its origin)/d(motion) (N/m, N, N m).
     pub fn blocks(&self) -> Vec<(usize, usize, Matrix6<f64>)> {
         let mut list = Vec::new();
         for (_, held) in &self.made {

@@ -65,16 +65,18 @@ impl<'a> Unknowns<'a> {
         Unknowns { rows, inertia: DVector::from_vec(inertia), measure: DVector::from_vec(measure), turns }
     }
 
+    /// The residual forces along the unknowns (N, N m).
     pub fn residual(&self, state: &SystemState) -> DVector<f64> {
         self.project_forces(&state.residual)
     }
 
-    /// Forces of the system, six a body, along the unknowns.
+    /// Forces of the system, six a body (N, N m), along the unknowns.
     pub fn project_forces(&self, forces: &DVector<f64>) -> DVector<f64> {
         let along = |d: &UnknownDirection| d.iter().map(|(r, share)| share * forces[*r]).sum();
         DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
 
+    /// The stiffness against the unknowns (N/m, N, N m).
     pub fn stiffness(&self, state: &SystemState) -> DMatrix<f64> {
         DMatrix::from_fn(self.rows.len(), self.rows.len(), |i, j| {
             let (rows, columns) = (&self.rows[i], &self.rows[j]);
@@ -84,7 +86,7 @@ impl<'a> Unknowns<'a> {
         })
     }
 
-    /// The largest residual acceleration over the tolerance, and the unknown that has it.
+    /// The largest residual acceleration over the tolerance (a ratio; below 1 is rest), and the unknown that has it.
     pub fn worst(&self, residual: &DVector<f64>, options: &EquilibriumOptions) -> (f64, usize) {
         let [shift, turn] = options.tolerance;
         let share = |(i, (r, m)): (usize, (&f64, &f64))| {

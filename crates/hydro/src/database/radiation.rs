@@ -123,7 +123,8 @@ impl Radiation {
         last.map_or(USUAL_MEMORY, |n| n as f64 * step)
     }
 
-    /// Added mass at infinite frequency from values at frequencies, and how far those stray from it.
+    /// Added mass at infinite frequency (kg, kg m, kg m2) from values at frequencies (rad/s), and how far those stray from it (a share of its
+    /// largest entry).
     pub fn by_ogilvie(&self, frequencies: &[f64], added: &[Matrix6<f64>]) -> (Matrix6<f64>, f64) {
         let single: Vec<Matrix6<f64>> =
             frequencies.iter().zip(added).map(|(w, a)| a + self.sine_part(*w) / *w).collect();

@@ -95,14 +95,14 @@ impl Station {
         (x.acos() - x * (1.0 - x * x).sqrt()) / PI
     }
 
-    /// How far the middle of the wet height is below the centre, in rises.
+    /// How far the middle of the wet height is below the centre, over the rise of the section (a ratio).
     pub fn lower(&self) -> f64 {
         0.5 * (self.height.clamp(-1.0, 1.0) + 1.0)
     }
 }
 
 impl MemberInPose {
-    /// Arm to a place on the axis.
+    /// Arm (m, global axes) from the body's origin to a position on the axis.
     pub fn arm(&self, at: f64) -> Vector3<f64> {
         self.from + self.axis * at
     }
@@ -173,7 +173,7 @@ impl MemberLength {
         STATIONS_PER_SEGMENT * (self.segments.len() + kinks)
     }
 
-    /// Where each segment begins and ends on the axis.
+    /// Where each segment begins and ends on the axis (m from its first end).
     pub fn ranges(&self) -> impl Iterator<Item = (f64, f64)> {
         let each = self.length / self.segments.len().max(1) as f64;
         (0..self.segments.len()).map(move |n| (each * n as f64, each * (n + 1) as f64))

@@ -70,7 +70,8 @@ pub struct Members {
     slow: SlowWrench,
 }
 
-/// The members of a body: their load, where there is any, and their added mass about its origin (body axes) under the mean level where
+/// The members of a body: their load, where there is any, and their added mass about its origin (kg, kg m, kg m2; body axes) under the mean
+/// level where
 /// the body stands. `under_way` is `None` of a body at rest, else with the sea there is.
 ///
 /// # Errors

@@ -260,7 +260,7 @@ impl StillBody {
         Ok((sum, weight))
     }
 
-    /// The stiffness against heave and turns about the roll axis and across it, and the weight, in an attitude.
+    /// The stiffness against heave and turns about the roll axis and across it (N/m, N, N m), and the weight (N), in an attitude.
     ///
     /// # Errors
     /// As [`StillBody::balance`].

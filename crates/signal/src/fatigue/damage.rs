@@ -42,7 +42,8 @@ pub struct ScatterState {
     pub duration: f64,
 }
 
-/// Damage of environments one after the other: each record's damage times its environment's duration over its length.
+/// Damage (Miner's sum, no unit; 1 is failure) of environments one after the other: each record's damage times its environment's duration
+/// over its length.
 ///
 /// # Errors
 /// A record or duration without length.

@@ -28,7 +28,7 @@ choices! {
 }
 
 impl SafetyClass {
-    /// gamma_SC.
+    /// The safety class factor gamma_SC (no unit).
     pub fn factor(self) -> f64 {
         match self {
             SafetyClass::Low => 1.04,

@@ -24,7 +24,7 @@ choices! {
 }
 
 impl DesignCase {
-    /// C_f.
+    /// The design case factor C_f (no unit).
     pub fn factor(self) -> f64 {
         match self {
             DesignCase::Operating => 1.0,

@@ -6,7 +6,7 @@
 
 use crate::rainflow::reversals;
 
-/// The range of the half cycle that begins at each turning point but the last, in their order; the first and the last value
+/// The range, in the series' unit, of the half cycle that begins at each turning point but the last, in their order; the first and the last value
 /// of the series are turning points.
 ///
 /// The flow from a turning point goes along the roof to the next one. It ends

@@ -100,7 +100,8 @@ pub fn life_days(damage_rate: f64) -> f64 {
     (1.0 / (damage_rate * 86_400.0)).min(LONGEST_LIFE)
 }
 
-/// Peak expected of a Rayleigh-distributed stress: |mean| + rms sqrt(2 ln n) with the number n of cycles in the time [AQWA-TETHER 3.7],
+/// Peak expected of a Rayleigh-distributed stress, in the unit of `mean` and `rms`: |mean| + rms sqrt(2 ln n) with the number n of cycles in
+/// the time [AQWA-TETHER 3.7],
 /// with a misprint mended. With less than one cycle, the mean alone.
 pub fn expected_peak(mean: f64, rms: f64, cycles: f64) -> f64 {
     mean.abs() + rms * (2.0 * cycles.max(1.0).ln()).sqrt()

@@ -59,7 +59,7 @@ impl ResponseStatistics {
         2.0 * self.deviation
     }
 
-    /// An extreme amplitude about the mean; `None` where it is not defined.
+    /// An extreme amplitude about the mean, in the quantity's unit; `None` where it is not defined.
     pub fn extreme(&self, extreme: ExtremeKind) -> Option<f64> {
         match extreme {
             ExtremeKind::MostProbable(duration) => self.most_probable(duration),

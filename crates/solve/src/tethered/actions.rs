@@ -150,7 +150,7 @@ impl MooredActions {
         self.list.is_empty()
     }
 
-    /// Names and times of the actions; no time of one that has not happened.
+    /// Names and times (s) of the actions; no time of one that has not happened.
     pub fn times(&self) -> Vec<(String, Option<f64>)> {
         self.list.iter().map(|action| action.name.clone()).zip(self.fired.iter().copied()).collect()
     }

@@ -120,25 +120,25 @@ impl TetherHistory {
         if self.towed { &TOWED_END } else { &INSTALLED_END }
     }
 
-    /// The series of a quantity of a node.
+    /// The series of a quantity of a node (SI).
     pub fn node(&self, node: usize, quantity: usize) -> Vec<f64> {
         let step = self.line.nodes() * TOWED_NODE.len();
         self.nodes.iter().skip(node * TOWED_NODE.len() + quantity).step_by(step.max(1)).copied().collect()
     }
 
-    /// The series of a quantity of an end: twice the element and the end, from 0.
+    /// The series of a quantity of an end (SI): twice the element and the end, from 0.
     pub fn end(&self, end: usize, quantity: usize) -> Vec<f64> {
         let each = self.end_quantities().len();
         let step = 2 * self.line.elements().len() * each;
         self.ends.iter().skip(end * each + quantity).step_by(step.max(1)).copied().collect()
     }
 
-    /// A value of a node at an instant.
+    /// A value of a node at an instant (SI).
     pub fn node_at(&self, instant: usize, node: usize, quantity: usize) -> Option<f64> {
         self.nodes.get((instant * self.line.nodes() + node) * TOWED_NODE.len() + quantity).copied()
     }
 
-    /// A value of an end at an instant.
+    /// A value of an end at an instant (SI).
     pub fn end_at(&self, instant: usize, end: usize, quantity: usize) -> Option<f64> {
         let each = self.end_quantities().len();
         self.ends.get((instant * 2 * self.line.elements().len() + end) * each + quantity).copied()
@@ -184,7 +184,7 @@ impl StructureHistory {
         self.rows.get(instant * self.width() + column).copied()
     }
 
-    /// A column as a series.
+    /// A column as a series (SI).
     pub fn series(&self, column: usize) -> Vec<f64> {
         self.rows.iter().skip(column).step_by(self.width().max(1)).copied().collect()
     }

@@ -171,7 +171,7 @@ impl History {
         History { layout, values: Vec::new() }
     }
 
-    /// The rows, each of the layout's width.
+    /// The rows (SI), each of the layout's width.
     pub fn rows(&self) -> impl ExactSizeIterator<Item = &[f64]> + Clone {
         self.values.chunks_exact(self.layout.width.max(1))
     }

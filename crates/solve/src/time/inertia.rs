@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 use windlass_base::pose::{Pose, Six};
 use windlass_model::Mass;
 
-/// The inertia of a body about its origin in a pose, with added mass, global axes.
+/// The inertia of a body about its origin in a pose (kg, kg m, kg m2), with added mass, global axes.
 pub fn inertia(node: &SystemBody, pose: &Pose) -> Matrix6<f64> {
     let own = mass_block(&node.floating.mass, pose);
     if node.added { own + node.floating.added_mass(pose) } else { own }

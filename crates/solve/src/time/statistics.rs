@@ -22,7 +22,7 @@ pub struct ResultSeries {
 }
 
 impl ResultSeries {
-    /// Its value in a row.
+    /// Its value in a row (SI).
     pub fn value(&self, row: &[f64]) -> f64 {
         match (row.get(self.columns.clone()), &self.pushing) {
             (Some([one]), _) => *one,

@@ -80,7 +80,7 @@ impl TetherAxis {
         Some(TetherAxis { chord, along, across, tilt: tilt(along) })
     }
 
-    /// Parts of a vector across the axis.
+    /// Parts of a vector across the axis, in the vector's unit.
     pub fn parts(&self, v: Vector3<f64>) -> [f64; 2] {
         self.across.map(|u| u.dot(&v))
     }

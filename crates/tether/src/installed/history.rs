@@ -70,7 +70,7 @@ impl InstalledHistory {
         self.structure.iter().filter_map(|row| row.get(1 + 6 * order + direction).copied()).collect()
     }
 
-    /// A series of a kind of force on the structure, by the order of [`StructureForces::KINDS`].
+    /// A series (N, N m) of a kind of force on the structure, by the order of [`StructureForces::KINDS`].
     pub fn force(&self, kind: usize, direction: usize) -> Vec<f64> {
         self.structure.iter().filter_map(|row| row.get(19 + 6 * kind + direction).copied()).collect()
     }
@@ -86,13 +86,15 @@ impl InstalledHistory {
         self.tethers.get(tether).map_or(&[], |t| &t.times)
     }
 
-    /// A series of a node of a tether, X, Y, RX, RY, their velocities and their accelerations in this order. Nodes count from 0 at the anchor.
+    /// A series (m, rad, s) of a node of a tether, X, Y, RX, RY, their velocities and their accelerations in this order. Nodes count from 0
+    /// at the anchor.
     pub fn node(&self, tether: usize, node: usize, motion: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };
         kept.states().filter_map(|s| s.get(NUMBERS_PER_NODE * node + 1 + motion).copied()).collect()
     }
 
-    /// A series of an end of an element of a tether, in the order effective and wall tension, shear along X and Y, moments about X and Y, shear stress, largest and smallest of bending and
+    /// A series (N, N m, Pa) of an end of an element of a tether, in the order effective and wall tension, shear along X and Y, moments about
+    /// X and Y, shear stress, largest and smallest of bending and
     /// axial stress, von Mises, bending of the moment about Y, axial stress; `upper` is its upper end.
     pub fn end(&self, tether: usize, element: usize, upper: bool, load: usize) -> Vec<f64> {
         let Some(kept) = self.tethers.get(tether) else { return Vec::new() };

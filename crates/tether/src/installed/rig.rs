@@ -301,7 +301,7 @@ impl Rig {
         four([0, 1].map(|p| self.bending.now[p].velocity.as_slice()), node)
     }
 
-    /// Their accelerations, those of the first stage.
+    /// Their accelerations (m/s2, rad/s2), those of the first stage.
     pub fn acceleration(&self, node: usize) -> [f64; 4] {
         four([0, 1].map(|p| self.bending.found[0][p].as_slice()), node)
     }
