@@ -37,6 +37,7 @@ use windlass_solve::EquilibriumOptions;
 use windlass_solve::results::ScatterExposure;
 use windlass_solve::tethered::Tethered;
 use windlass_solve::time::{Action, Run};
+use windlass_study::kept::Kept;
 
 /// A menu that is open.
 #[derive(Clone, Debug)]
@@ -355,6 +356,8 @@ pub struct Job {
     pub verdict: Verdict,
     /// The tables that records have shown, where a program reads them.
     pub kept_tables: Option<Vec<KeptTable>>,
+    /// Named results and rows of lines, for the record of a study's case.
+    pub kept: Kept,
     /// The records that were executed.
     pub journal: Journal,
     /// The page that is written as the job goes, where one was asked for.
@@ -406,6 +409,7 @@ impl Job {
             scatter: Vec::new(),
             verdict: Verdict::default(),
             kept_tables: None,
+            kept: Kept::default(),
             journal: Journal::default(),
             page: None,
             last_tables: Vec::new(),

@@ -41,7 +41,9 @@ use model::{
     hydrodynamics, hydrostatic, junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
 };
 pub use output::buildg::take as take_row;
-use output::{add_column, animate, buildg, disposition, message, picture, plot, report_menu, series, statistic, store};
+use output::{
+    add_column, animate, buildg, disposition, message, picture, plot, report_menu, result, series, statistic, store,
+};
 use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, history, parameter, units};
@@ -313,6 +315,7 @@ static LISTED: &[&Command] = &[
     &message::S_BACK,
     &message::CTYPE,
     &message::CUTYPE,
+    &result::RESULT,
     &message::ERROR,
     &message::DCPTIME,
     &report_menu::REPORT,

@@ -24,6 +24,7 @@ mod program {
     mod names;
     mod never_panics;
     mod picture;
+    mod results;
     mod script_check;
     mod stored_run;
     mod table_vary;

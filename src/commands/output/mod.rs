@@ -8,6 +8,7 @@ pub(crate) mod message;
 pub(crate) mod picture;
 pub(crate) mod plot;
 pub(crate) mod report_menu;
+pub(crate) mod result;
 pub(crate) mod series;
 pub(crate) mod statistic;
 pub(crate) mod store;

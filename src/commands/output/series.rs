@@ -7,6 +7,7 @@ use crate::commands::output::disposition::{
     ANY_COLUMN, COLUMN, MAG_USE, MENU, RECORD, VALUES, chosen_for_statistics, open_disposition, selectors,
     to_diagnostic,
 };
+use crate::commands::output::result::{KEEP, keep_extremes};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use crate::report::{page, statistic};
@@ -118,21 +119,27 @@ pub static FFT: Command = Command {
 pub static EXTREMES: Command = Command {
     spec: &CommandSpec {
         owner: Owner::Ours,
-        options: &[DURATION, BLOCKS, LOWS, RECORD, VALUES, MAG_USE],
+        options: &[DURATION, BLOCKS, LOWS, RECORD, VALUES, MAG_USE, KEEP],
         detail: "The first column is time. The most probable and the expected largest value in a time by three ways: Rayleigh, \
                  from the standard deviation and the mean up-crossing period; a Weibull distribution fitted to the maxima between \
                  crossings of the mean, at least 30 of them; a Gumbel distribution fitted to the maxima of blocks, at least 10. \
                  Both fits are of greatest likelihood; their 95 per cent intervals of the most probable value are asymptotic \
-                 and take maxima for independent. A way that has too little to go by is left empty, and it is said why. Opens \
-                 an inner disposition menu; END returns.",
+                 and take maxima for independent. A way that has too little to go by is left empty, and it is said why. -RESULT keeps \
+                 the most probable values NAME_RAYLEIGH, NAME_WEIBULL and NAME_GUMBEL of the ways that answer, and _LOW and _HIGH of \
+                 the fits. Opens an inner disposition menu; END returns.",
         ..spec("EXTREMES", "largest values of columns in a time")
     },
     edits: false,
     run: |job, call| {
-        open(job, call, |record, args| {
-            let duration = 3600.0 * args.option_number(&DURATION).unwrap_or(3.0);
-            tables::extremes(record, Extremes { duration, blocks: whole(args, &BLOCKS), lows: args.has(&LOWS) })
-        })
+        let (record, without) = record(job, &call.args)?;
+        let args = &call.args;
+        let duration = 3600.0 * args.option_number(&DURATION).unwrap_or(3.0);
+        let asked = Extremes { duration, blocks: whole(args, &BLOCKS), lows: args.has(&LOWS) };
+        let mut table = tables::extremes(&record, asked).map_err(|e| series_error(args, &e))?;
+        keep_extremes(job, args, &table, job.units)?;
+        table.add_notes(without);
+        enter(job, table);
+        Ok(Effect::Done)
     },
 };
 /// EXCEEDANCE.

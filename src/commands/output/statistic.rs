@@ -7,6 +7,7 @@ use crate::commands::output::disposition::{ANY_COLUMN, BOTH, COLUMN, HARD, MAG_U
 use crate::commands::output::disposition::{
     chosen_for_statistics, open_disposition, selectors, send, spec, to_diagnostic,
 };
+use crate::commands::output::result::{KEEP, keep_statistics};
 use crate::commands::{Call, Command, Effect, Job};
 use crate::report::{page, statistic};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -31,13 +32,14 @@ const PEAKS: OptionSpec =
 static SPEC: CommandSpec = CommandSpec {
     data: &[COLUMN, ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HARD, BOTH, WIDE, MAG_USE, DURATION, PEAKS],
+    options: &[RECORD, VALUES, HARD, BOTH, WIDE, MAG_USE, DURATION, PEAKS, KEEP],
     detail: "The first column is the independent one; the extremes are given with their place in it. Kurtosis is the excess \
              over 3. Where the independent column grows, cycles are counted from an up-crossing of the mean to the next: \
              Period is their mean length, 1/3 Range the mean of the highest third of their crest-to-trough ranges \
              (of a wave record its significant height), 1/10 Range that of the highest tenth. 2 Std. Dev. is the significant \
              single amplitude of a Gaussian process. Of a run the rows before TTRA_SET of &ENV -TIME are left out, as TDOM leaves them \
-             out of its own statistics, unless -EVENTS, -RECORD or -VALUES choose. -DURATION needs a column of time; EXTREMES fits distributions.",
+             out of its own statistics, unless -EVENTS, -RECORD or -VALUES choose. -DURATION needs a column of time; EXTREMES fits distributions. -RESULT keeps NAME_MEAN, \
+             NAME_SD, NAME_MIN and NAME_MAX.",
     ..spec("STATISTIC", "mean, deviation, extremes and cycles of columns")
 };
 fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -56,6 +58,9 @@ fn statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     if args.has(&PEAKS) {
         parts.push(statistic::peaks(&table).map_err(wrong)?);
+    }
+    if let Some(described) = parts.first() {
+        keep_statistics(job, args, described)?;
     }
     parts.iter().for_each(|table| job.keep_table(table));
     let units = job.units;
