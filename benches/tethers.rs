@@ -66,6 +66,7 @@ fn pass(name: &str, model: &Model, settings: TetherRunSettings, statistics: bool
 
 fn main() {
     let settings = |observed, step, store| TetherRunSettings {
+        start: 0.0,
         observed,
         step,
         store,

@@ -48,7 +48,7 @@ function water(painter, sea, { bodies, plane, middle, reach, level }) {
     if (made.time === time) return;
     made.time = time;
     let grown = !sea || (sea.since !== null && time < sea.since) ? 0 : 1;
-    if (grown && sea.ramp > 0) grown = 0.5 * (1 - Math.cos(Math.PI * Math.min(Math.max(time / sea.ramp, 0), 1)));
+    if (grown && sea.ramp > 0) grown = 0.5 * (1 - Math.cos(Math.PI * Math.min(Math.max((time - sea.rampStart) / sea.ramp, 0), 1)));
     for (let w = 0; w < count; w++) {
       turn[2 * w] = grown * Math.cos(sea.waves[5 * w] * time);
       turn[2 * w + 1] = grown * Math.sin(sea.waves[5 * w] * time);

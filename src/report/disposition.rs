@@ -95,10 +95,10 @@ impl Disposition {
         Disposition { table, adjust, transient: None }
     }
 
-    /// The same over a run whose transient lasts so long (s): its statistics leave that out.
-    pub fn after_transient(self, transient: f64) -> Self {
+    /// The same of a run whose statistics leave out what is before a time (s).
+    pub fn after_transient(self, transient: Option<f64>) -> Self {
         let times = self.table.columns().first().is_some_and(|c| c.dim == Dim::Time);
-        Disposition { transient: Some(transient).filter(|t| times && *t > 0.0), ..self }
+        Disposition { transient: transient.filter(|_| times), ..self }
     }
 
     /// Puts a column of as many rows behind the others.

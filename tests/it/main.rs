@@ -106,6 +106,7 @@ mod time {
     mod moses_posts;
     mod prcpost;
     mod prescribed_motion;
+    mod run_start;
     mod screening;
     mod step_accuracy;
     mod step_prediction;

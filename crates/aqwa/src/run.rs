@@ -59,6 +59,13 @@ pub struct TimeSteps {
     pub span: Span,
 }
 
+impl TimeSteps {
+    /// Time of the last step (s).
+    pub fn end(&self) -> f64 {
+        self.start + (self.count.value - 1) as f64 * self.step.value
+    }
+}
+
 /// Most structures of a deck.
 pub const MAX_STRUCTURES: i64 = 50;
 

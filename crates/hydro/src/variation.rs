@@ -64,8 +64,9 @@ pub struct Variation {
     wind: Option<(f64, TimeCurve)>,
     gusts: Option<Gusts>,
     current: Option<TimeCurve>,
-    /// Time over which it grows (s).
+    /// Time over which it grows (s), and at which it begins to.
     ramp: f64,
+    ramp_start: f64,
 }
 
 impl Variation {
@@ -103,12 +104,13 @@ impl Variation {
         if wind.is_none() && gusts.is_none() && current.is_none() {
             return Ok(None);
         }
-        Ok(Some(Variation { wind, gusts, current, ramp: env.ramp.unwrap_or(model.defaults.ramp) }))
+        let ramp = env.ramp.unwrap_or(model.defaults.ramp);
+        Ok(Some(Variation { wind, gusts, current, ramp, ramp_start: env.run_start }))
     }
 
     /// What there is at a time (s).
     pub fn sample(&self, time: f64) -> StreamVariation {
-        let (grown, _) = ramp(self.ramp, time);
+        let (grown, _) = ramp(self.ramp, time - self.ramp_start);
         let wind = self.wind.as_ref().map_or(0.0, |(mean, history)| grown * (history.value_at_time(time) - mean));
         let current = self.current.as_ref().map_or(1.0, |history| 1.0 + grown * (history.value_at_time(time) - 1.0));
         let gust = self.gusts.as_ref().map_or(0.0, |gusts| grown * gusts.speed_at_time(time));

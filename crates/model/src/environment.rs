@@ -256,6 +256,8 @@ pub struct Environment {
     pub tide: Option<f64>,
     /// Time window.
     pub time: Option<TimeWindow>,
+    /// Time of the first instant of a run (s) (`-START`), from which ramps count.
+    pub run_start: f64,
     /// Ramp (s).
     pub ramp: Option<f64>,
     /// Directional spreading exponent; 200 (long-crested) when not given.

@@ -236,7 +236,7 @@ fn model_of_series(model: &Model, series: &str) -> Option<Idealisation> {
 
 /// What differs between a run and the same with half the step, behind its transient: a table for each dimension.
 pub fn comparison_tables(run: &Run, second: &History) -> Vec<Table> {
-    let (first, transient) = (&run.history, run.settings.transient);
+    let (first, transient) = (&run.history, run.statistics_start());
     let all = results(&first.layout);
     let mut tables = Vec::new();
     for (title, dim) in KINDS {

@@ -183,7 +183,7 @@ fn period(run: &Run, link: usize, peak: f64) -> Result<f64, ClassError> {
         }
     }
     let layout = &run.history.layout;
-    let behind = |row: &&[f64]| row.first().is_some_and(|time| *time >= run.settings.transient);
+    let behind = |row: &&[f64]| row.first().is_some_and(|time| *time >= run.statistics_start());
     let (mut times, mut tensions) = (Vec::new(), Vec::new());
     for row in run.history.rows().filter(behind) {
         if let (Some(time), Some(tension), true) = (row.first(), layout.tension(link, row), acts(layout, link, row)) {
@@ -259,7 +259,7 @@ impl EndMotion {
         let (Some(first), Some(last)) = (rows.first().map(|r| r.time), rows.last().map(|r| r.time)) else {
             return Err(ClassError::new("no instant around its largest tension is stored"));
         };
-        let behind = first.max(run.settings.transient).min(last);
+        let behind = first.max(run.statistics_start()).min(last);
         let begin = (peak - 0.5 * REPLAY_PERIODS * period).min(last - REPLAY_PERIODS * period).max(behind);
         let end = (begin + REPLAY_PERIODS * period).min(last);
         let spacing = rows.array_windows().map(|[a, b]| b.time - a.time).fold(0.0, f64::max);

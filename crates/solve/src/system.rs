@@ -416,7 +416,8 @@ pub(super) fn moving_nodes(model: &Model, sea: Option<&Arc<Sea>>) -> Result<Vec<
     let node = |(key, body): (&String, &Body)| {
         let floating = Floating::under_way(model, body, sea).map_err(SolveError::error_about(&body.name))?;
         let mut made = SystemBody::new(model, key, body, floating);
-        made.prescribed = build_prescribed(body, sea).map_err(SolveError::error_about(&body.name))?;
+        made.prescribed =
+            build_prescribed(body, sea, model.environment.run_start).map_err(SolveError::error_about(&body.name))?;
         Ok(made)
     };
     model.bodies.iter().map(node).collect()

@@ -90,6 +90,14 @@ pub(crate) const TIME: OptionSpec = OptionSpec::new(
     ],
     "time window",
 );
+/// `-START`.
+pub(crate) const START: OptionSpec = OptionSpec::new(
+    "-START",
+    &[number("T", Dim::Time, "time").not_negative()],
+    "time of the first instant of runs: waves, histories and actions are as at that time, and ramps and TTRA_SET count from it",
+)
+.owner(Owner::Ours)
+.default("0");
 /// `-RAMP`.
 pub(crate) const RAMP: OptionSpec =
     OptionSpec::new("-RAMP", &[number("T", Dim::Time, "time").not_negative()], "ramp of the loads").default("&DEFAULT");
@@ -147,6 +155,7 @@ const OPTIONS: &[OptionSpec] = &[
     S_PERIOD,
     MD_PERIOD,
     TIME,
+    START,
     RAMP,
     T_REINFORCE,
     wind_options::WIND,
@@ -196,7 +205,8 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              sea does not repeat itself), or about the periods of -S_PERIOD; energy outside LOW to HIGH is left out. With -SPREAD \
              below 200 each component has one direction, from the cumulative spreading function at points of low discrepancy. \
              Phases are random from -SEED, 1 unless given: the same in every run, without the crest that one reinforcement time \
-             makes; another seed is another realisation. -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
+             makes; another seed is another realisation. A run begins at 0 s, or at -START, which leaves the sea as it is and enters it later: its instants, and the times of &ACTION, histories and phases, are times of the sea. \
+             -T_REINFORCE puts all components in phase at X = Y = 0 at TB, as MOSES \
              does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM reports; let TB be outside the run unless \
              it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED, -T_REINFORCE and -PHASES the last one \
              holds. -PHASES gives the phase of each component, in the order of &STATUS SEA_SPECTRUM with the added sea last, of \
@@ -302,6 +312,7 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
         _ if given.is(&DEPTH) => env.depth = value,
         _ if given.is(&TIDE) => env.tide = value,
         _ if given.is(&RAMP) => env.ramp = value,
+        _ if given.is(&START) => env.run_start = value.unwrap_or(0.0),
         _ if given.is(&SPREAD_OPTION) => env.spreading = value,
         _ if given.is(&SP_TYPE_OPTION) => {
             let kind = given.choice(const { SP_TYPE_OPTION.choice("TYPE") });

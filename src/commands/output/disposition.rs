@@ -272,7 +272,7 @@ pub(crate) fn open_chosen_table(
     job: &mut Job,
     args: &Args,
     tables: &[Table],
-    (transient, position): (f64, Span),
+    (transient, position): (Option<f64>, Span),
 ) -> Outcome<bool> {
     let Some(given) = args.option(&DISPOSE) else { return Ok(false) };
     let wanted = given.first_integer().unwrap_or(1);
@@ -290,7 +290,12 @@ pub(crate) fn open_chosen_table(
 ///
 /// # Errors
 /// There is no table of the number of -DISPOSE; the report file cannot be written.
-pub(crate) fn print_or_dispose(job: &mut Job, args: &Args, tables: &[Table], when: (f64, Span)) -> Outcome<Effect> {
+pub(crate) fn print_or_dispose(
+    job: &mut Job,
+    args: &Args,
+    tables: &[Table],
+    when: (Option<f64>, Span),
+) -> Outcome<Effect> {
     if open_chosen_table(job, args, tables, when)? {
         return Ok(Effect::Done);
     }

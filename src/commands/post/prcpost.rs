@@ -112,22 +112,22 @@ pub(crate) fn run_and_events<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run,
 /// The same for what sums up a run: without -EVENTS the instants behind its transient.
 pub(crate) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let transient = transient_of(job, args);
-    if transient <= 0.0 {
-        return run_and_events(job, args);
-    }
+    let Some(transient) = transient else { return run_and_events(job, args) };
     let run = last_run(job, args.span)?;
     let window = EventWindow { begin: transient, end: None, increment: None };
     let found = results::events(&run.history, Some(&window)).map_err(|_| {
-        let text = format!("the run has no instant after TTRA_SET, {transient} s, which is left out");
+        let text = format!(
+            "the run has no instant from {transient} s on; what is before is left out as its transient, TTRA_SET"
+        );
         Diagnostic::error(text, args.span).help("-EVENTS takes a part of the run")
     })?;
     Ok((run, found))
 }
 
-/// How much of the beginning of the last run statistics of a result leave out (s): nothing where -EVENTS chooses instants.
-pub(crate) fn transient_of(job: &Job, args: &Args) -> f64 {
+/// The time before which statistics of a result leave the last run out (s): none where it has no transient, or -EVENTS chooses instants.
+pub(crate) fn transient_of(job: &Job, args: &Args) -> Option<f64> {
     let run = job.run.as_ref().filter(|_| !args.has(&EVENTS));
-    run.map_or(0.0, |run| run.settings.transient)
+    run.filter(|run| run.settings.transient > 0.0).map(Run::statistics_start)
 }
 
 /// A record that asks for a table of the last run.

@@ -99,11 +99,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     moved.prescribed = motion.map(|motion| Prescription { motion, span: args.span });
     if let Some(Prescription { motion: GivenMotion::Path(rows), .. }) = &moved.prescribed {
         let wrong = |e: ClassError| e.diagnostic(args.span, job.units);
-        let given = build_prescribed(&moved, None).map_err(wrong)?;
-        let start = given.map(|g| g.motion_at(0.0)).transpose().map_err(wrong)?.unwrap_or_default();
-        let near = rows.iter().min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).map(|r| Place::new(r.1));
+        let start = job.model.environment.run_start;
+        let given = build_prescribed(&moved, None, start).map_err(wrong)?;
+        let placed = given.map(|g| g.motion_at(start)).transpose().map_err(wrong)?.unwrap_or_default();
+        let near =
+            rows.iter().min_by(|a, b| (a.0 - start).abs().total_cmp(&(b.0 - start).abs())).map(|r| Place::new(r.1));
         moved.previous = moved.position;
-        moved.position = start.pose.position(&near.unwrap_or_default());
+        moved.position = placed.pose.position(&near.unwrap_or_default());
     }
     job.model.bodies.insert(key, moved);
     Ok(Effect::Done)

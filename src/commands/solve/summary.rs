@@ -182,7 +182,7 @@ pub(crate) fn excursion_in_run(run: &Run, units: UnitSystem) -> String {
             let (Some(time), Some([x, y, z])) = (row.first(), row.get(at..at + 3)) else { continue };
             let gone = [x - start[0], y - start[1], z - start[2]];
             let farther = |m: &(&str, [f64; 3], f64)| far(&gone) > far(&m.1);
-            if *time >= run.settings.transient && most.as_ref().is_none_or(farther) {
+            if *time >= run.statistics_start() && most.as_ref().is_none_or(farther) {
                 most = Some((name, gone, *time));
             }
         }

@@ -83,7 +83,7 @@ pub(crate) const RESTART: OptionSpec = OptionSpec::new(
 pub(crate) const RESET: OptionSpec = OptionSpec::new(
     "-RESET",
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "time").not_negative()],
-    "begins with the bodies as they were in the run at a time, at rest or moving, and time zero",
+    "begins with the bodies as they were in the run at a time, at rest or moving; its own time begins at -START of &ENV, or zero",
 );
 /// `-STORE`.
 pub(crate) const STORE: OptionSpec = OptionSpec::new(
@@ -415,7 +415,7 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
 
 /// Warns of actions at times that the run does not reach.
 fn warn_of_late_actions(job: &mut Job, made: &Run, span: Span) {
-    let end = made.settings.observed;
+    let end = made.end();
     let late = made.actions.iter().filter_map(|action| match action.when {
         Trigger::At(time) if time > end => Some(format!("{} at {time} s", action.name)),
         _ => None,
@@ -537,12 +537,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 /// What a run came to, in a few lines.
 fn summarise(made: &Run, failed: bool, units: UnitSystem) -> SolveSummary {
     let asked = if failed { "FAILED at" } else { "reached" };
-    let head = format!(
-        "TDOM: {asked} {:.1} s of {:.1} s in {}",
-        made.time(),
-        made.settings.observed,
-        count(made.counts.steps, "step")
-    );
+    let head =
+        format!("TDOM: {asked} {:.1} s of {:.1} s in {}", made.time(), made.end(), count(made.counts.steps, "step"));
     let residual = format!("each step converged to {:e} of gravity", made.settings.convergence.tolerance);
     SolveSummary::new(head)
         .line("Residual", residual)
@@ -582,6 +578,7 @@ pub(crate) struct RunProgress {
     log: Option<RunLog>,
     interrupt: Arc<AtomicBool>,
     bar: ProgressBar,
+    start: f64,
     asked: u64,
 }
 
@@ -590,17 +587,17 @@ const STEPS_PER_TERMINAL_CHECK: u64 = 256;
 
 impl RunProgress {
     fn new(job: &Job, run: &Run, log: Option<RunLog>) -> Self {
-        RunProgress::with_length(job, run.settings.observed, log)
+        RunProgress::with_length(job, (run.start(), run.settings.observed), log)
     }
 
-    /// That of a run over a time (s).
-    pub(crate) fn with_length(job: &Job, observed: f64, log: Option<RunLog>) -> Self {
+    /// That of a run from a start over a time (s).
+    pub(crate) fn with_length(job: &Job, (start, observed): (f64, f64), log: Option<RunLog>) -> Self {
         // hidden when nobody looks: it goes to the terminal behind stderr alone
         let bar = ProgressBar::new(observed.ceil() as u64);
         if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}, {elapsed} gone, {eta} to go") {
             bar.set_style(style);
         }
-        RunProgress { log, interrupt: Arc::clone(&job.interrupt), bar, asked: 0 }
+        RunProgress { log, interrupt: Arc::clone(&job.interrupt), bar, start, asked: 0 }
     }
 }
 
@@ -625,8 +622,9 @@ impl Watcher for RunProgress {
 
     fn should_continue(&mut self, time: f64) -> bool {
         if self.asked.is_multiple_of(STEPS_PER_TERMINAL_CHECK) {
-            let rate = time / self.bar.elapsed().as_secs_f64().max(1e-9);
-            self.bar.set_position(time as u64);
+            let gone = time - self.start;
+            let rate = gone / self.bar.elapsed().as_secs_f64().max(1e-9);
+            self.bar.set_position(gone.max(0.0) as u64);
             self.bar.set_message(format!("{time:.1} s, {rate:.0} times real time"));
         }
         self.asked += 1;

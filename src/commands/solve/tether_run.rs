@@ -100,9 +100,11 @@ pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let (cos, sin) = unit_vector(direction);
         [speed * cos, speed * sin]
     });
+    let start = job.model.environment.run_start;
     let settings = TetherRunSettings {
+        start,
         // a stored run is not gone on with
-        observed: stored.as_ref().map_or(window.observed, |kept| kept.last_time),
+        observed: stored.as_ref().map_or(window.observed, |kept| kept.last_time - start),
         step: window.step,
         store: store.and_then(|n| usize::try_from(n).ok()).unwrap_or(1),
         compatible,
@@ -125,7 +127,7 @@ pub fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         None => open_log(job, call, &mut run)?,
     };
-    let mut progress = RunProgress::with_length(job, window.observed, log);
+    let mut progress = RunProgress::with_length(job, (start, window.observed), log);
     let made = run.run(&mut progress);
     drop(progress);
     let made = made.map_err(|e| wrong(e, job))?;

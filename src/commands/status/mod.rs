@@ -264,7 +264,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
     job.verdict.over_break.append(&mut verdict.over_break);
     let position = args.position(const { SPEC.word("NAME") });
-    if open_chosen_table(job, args, &tables, (0.0, position))? {
+    if open_chosen_table(job, args, &tables, (None, position))? {
         return Ok(Effect::Done);
     }
     let head = job.page_head();

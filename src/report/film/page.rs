@@ -97,5 +97,10 @@ fn sea(waves: &FilmWaves) -> String {
         let [tx, ty] = w.toward;
         [w.frequency, w.number * tx, w.number * ty, w.amplitude, w.phase]
     });
-    object([("waves", doubles(numbers)), ("ramp", number(waves.ramp)), ("since", number(waves.since))])
+    object([
+        ("waves", doubles(numbers)),
+        ("ramp", number(waves.ramp)),
+        ("rampStart", number(waves.ramp_start)),
+        ("since", number(waves.since)),
+    ])
 }

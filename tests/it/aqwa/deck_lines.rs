@@ -570,3 +570,25 @@ fn drum_with_final_length_behind_it_is_reported_by_its_forces() {
     let note = "the drum never turns: its final length is not where its speed leads";
     assert!(drum("12").contains(note) && !drum("6").contains(note), "{}", drum("12"));
 }
+
+#[test]
+fn start_of_time_card_is_first_instant_and_breaks_count_from_zero() {
+    let line = "    14LINE    1    2    0   12     1.0E5     540.0\n";
+    let last_pull = |time: &str| {
+        let cards = format!("{line} END14LBRK         1{time:>20}\n");
+        let deck = moored_deck("NAUT", 100.0, &cards, STILL)
+            .replace("16TIME       101       0.1", "16TIME       101       0.1     100.0");
+        let (session, _) = run("held.dat", &hold_structure(&deck));
+        let made = session.job.run.as_ref().unwrap();
+        let column = made.history.layout.category(0, Category::FlexConnectors).unwrap();
+        let times = made.history.times();
+        assert_eq!((times[0], times.last().copied(), times.len()), (100.0, Some(110.0), 101));
+        let rows = times.iter().zip(made.history.rows());
+        rows.filter(|(_, row)| row[column] != 0.0).last().map(|(time, _)| *time)
+    };
+    let last = last_pull("103.05").unwrap();
+    assert!((102.9..=103.06).contains(&last), "{last}");
+    // broken before the run begins; after it ends
+    assert_eq!(last_pull("3.05"), None);
+    assert_eq!(last_pull("120.0"), Some(110.0));
+}

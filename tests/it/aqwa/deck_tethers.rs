@@ -546,3 +546,27 @@ fn towed_tether_of_naut_deck_rides_on_stokes_wave_of_second_order() {
     assert!((with - want).abs() < 0.05 * want && across.abs() < 0.05 * want, "{with} {across} {want}");
     assert!(without[0].hypot(without[1]) < 0.1 * want, "{without:?}");
 }
+
+#[test]
+fn tethers_from_a_start_of_one_wave_period_move_as_from_zero() {
+    // the wave of the example has a period of 15 s: the same wave, so the same motions, at times 15 s later
+    let example = std::fs::read_to_string("scripts/mint.dat").unwrap();
+    let later = example.replace("16TIME       101     0.250     0.000", "16TIME       101     0.250    15.000");
+    let quarter = example.replace("16TIME       101     0.250     0.000", "16TIME       101     0.250     3.750");
+    let motions = |deck: &str| {
+        let (session, _) = run("mint.dat", deck);
+        let made = session.job.tethered.as_ref().unwrap();
+        let structure = made.structure.as_ref().unwrap();
+        (made.times.clone(), structure.rows.clone(), structure.rows.len() / made.times.len())
+    };
+    let [first, second, third] = [&example, &later, &quarter].map(|deck| motions(deck));
+    assert_eq!((second.0[0], second.0.last().copied(), second.0.len()), (15.0, Some(40.0), 101));
+    assert_eq!(first.1.len(), second.1.len());
+    let width = first.2;
+    for (a, b) in first.1.chunks(width).zip(second.1.chunks(width)) {
+        // place, velocity and acceleration, of some metres, radians and seconds: rounding of the phase
+        assert!(a.iter().zip(b).take(18).all(|(a, b)| (a - b).abs() <= 1e-9), "{a:?} {b:?}");
+    }
+    // a quarter of a period on is another wave
+    assert_ne!(first.1[..200], third.1[..200]);
+}

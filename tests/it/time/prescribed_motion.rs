@@ -32,7 +32,7 @@ fn session(file: &str, records: &str) -> (Model, i64, String) {
 fn motion(file: &str, records: &str, sea: Option<&Arc<Sea>>) -> Box<dyn Prescribed> {
     let (model, errors, text) = session(file, records);
     assert_eq!(errors, 0, "{text}");
-    build_prescribed(&model.bodies["B"], sea).unwrap().unwrap()
+    build_prescribed(&model.bodies["B"], sea, 0.0).unwrap().unwrap()
 }
 
 fn motion_at(motion: &dyn Prescribed, time: f64) -> BodyMotion {
@@ -172,7 +172,7 @@ fn rao_table_without_sea_headings_is_refused() {
     let file = table(&[0.0, 45.0, 90.0], |_, _| [(1.0, 0.0); 6]);
     let (model, errors, text) = session(&file, "MEDIT\nPRESCRIBE B -RAO FILE.CSV\nEND");
     assert_eq!(errors, 0, "{text}");
-    let error = build_prescribed(&model.bodies["B"], Some(&sea(&[(0.6, 1.0, 0.0, 0.0)], 0.0))).unwrap_err();
+    let error = build_prescribed(&model.bodies["B"], Some(&sea(&[(0.6, 1.0, 0.0, 0.0)], 0.0)), 0.0).unwrap_err();
     assert!(error.to_string().contains("no headings within 90 degrees"), "{error}");
     assert!(error.span.is_some());
 }

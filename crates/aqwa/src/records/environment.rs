@@ -50,13 +50,14 @@ pub(super) fn spectrum(deck: &Deck) -> Option<&SpectrumCard> {
     }
 }
 
-/// Time steps; the first is the start.
+/// Time steps, and the time of the first of them, the start.
 fn time(deck: &Deck, out: &mut Script) -> Option<String> {
     let steps = deck.steps?;
-    if steps.start != 0.0 {
+    if steps.start < 0.0 {
         out.refuse(
-            Diagnostic::error("deck 16, TIME, columns 31-40: a run starts at 0 s", steps.span)
-                .label(format!("this one is to start at {} s", steps.start)),
+            Diagnostic::error("deck 16, TIME, columns 31-40: the start is before 0 s", steps.span)
+                .label(format!("this one is at {} s", steps.start))
+                .help("0, also by leaving it blank, or a later time"),
         );
     }
     if steps.count.value < 2 {
@@ -67,7 +68,8 @@ fn time(deck: &Deck, out: &mut Script) -> Option<String> {
         return None;
     }
     let observed = round_value((steps.count.value - 1) as f64 * steps.step.value);
-    Some(format!("-TIME {}", numbers([observed, steps.step.value])))
+    let start = if steps.start > 0.0 { format!(" -START {}", number(steps.start)) } else { String::new() };
+    Some(format!("-TIME {}{start}", numbers([observed, steps.step.value])))
 }
 
 /// A stream as x and y of its velocity (m/s).

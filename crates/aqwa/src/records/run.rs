@@ -108,7 +108,7 @@ fn is_timed(deck: &Deck) -> bool {
 
 /// The last time of a run (s).
 fn end_of_run(deck: &Deck) -> Option<f64> {
-    deck.steps.filter(|_| is_timed(deck)).map(|steps| round_value((steps.count.value - 1) as f64 * steps.step.value))
+    deck.steps.filter(|_| is_timed(deck)).map(|steps| round_value(steps.end()))
 }
 
 /// Says which cards are read and change nothing in what this deck runs.
@@ -358,8 +358,7 @@ fn common_divisor(a: i64, b: i64) -> i64 {
 /// Times of a page at each so many steps, from the start to the end.
 fn events(deck: &Deck, steps: i64) -> String {
     let Some(run) = deck.steps else { return String::new() };
-    let last = round_value((run.count.value - 1) as f64 * run.step.value);
-    format!("-EVENTS {}", numbers([0.0, last, round_value(steps as f64 * run.step.value)]))
+    format!("-EVENTS {}", numbers([run.start, round_value(run.end()), round_value(steps as f64 * run.step.value)]))
 }
 
 fn write_tether_run(deck: &Deck, out: &mut Script) {
@@ -434,7 +433,7 @@ fn harmonics(deck: &Deck, out: &mut Script) {
     if deck.job.program != Program::Naut || wave.amplitude == 0.0 {
         return;
     }
-    let lasts = deck.steps.map_or(0.0, |steps| (steps.count.value - 1) as f64 * steps.step.value);
+    let lasts = deck.steps.map_or(0.0, |steps| steps.end() - steps.start);
     if lasts < wave.period {
         let span = deck.steps.map_or(deck.job.span, |steps| steps.span);
         let text = format!(

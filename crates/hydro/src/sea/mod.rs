@@ -86,6 +86,8 @@ pub struct Sea {
     pub density: f64,
     /// Time over which the waves grow from nothing (s); 0: they are there at once.
     pub ramp: f64,
+    /// Time at which they begin to grow (s): the first instant of a run.
+    pub ramp_start: f64,
     /// What holds above the mean level; a Stokes wave goes up to its surface by itself.
     pub stretching: Stretching,
     /// Seed of the phases, where they are random.
@@ -103,7 +105,7 @@ pub struct Sea {
 }
 
 impl Sea {
-    /// A sea of Airy waves, their phases taken as they are, that grows over `ramp` (s); see [`Sea::new`] for that of an environment.
+    /// A sea of Airy waves, their phases taken as they are, that grows over `ramp` (s) from time 0 on; see [`Sea::new`] for that of an environment.
     pub fn airy(components: Vec<Component>, water: Water, ramp: f64, stretching: Stretching) -> Self {
         let lanes = airy::WaveLanes::new(&components, water.depth);
         let Water { depth, level, gravity, density } = water;
@@ -114,6 +116,7 @@ impl Sea {
             gravity,
             density,
             ramp,
+            ramp_start: 0.0,
             stretching,
             seed: None,
             reinforcement: None,
@@ -124,14 +127,14 @@ impl Sea {
         }
     }
 
-    /// The ramp at a time (s), from 0 to 1: `(1 - cos(pi t/T))/2`.
+    /// The ramp at a time (s), from 0 to 1: `(1 - cos(pi t/T))/2` with t from the start of the ramp.
     pub fn factor(&self, time: f64) -> f64 {
         self.factor_and_rate(time).0
     }
 
     /// The ramp at a time (s), and its change with time (1/s).
     fn factor_and_rate(&self, time: f64) -> (f64, f64) {
-        super::ramp::ramp(self.ramp, time)
+        super::ramp::ramp(self.ramp, time - self.ramp_start)
     }
 
     /// The sea at one time (s), prepared for many places.

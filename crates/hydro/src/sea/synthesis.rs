@@ -106,7 +106,7 @@ impl Sea {
         };
         let made = Sea::airy(components, water, ramp, env.stretching.unwrap_or_default());
         let phases_given = !env.sea_phases.is_empty();
-        Ok(Some(Sea { seed, reinforcement, phases_given, trains, stokes, ..made }))
+        Ok(Some(Sea { ramp_start: env.run_start, seed, reinforcement, phases_given, trains, stokes, ..made }))
     }
 }
 

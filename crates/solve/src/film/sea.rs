@@ -31,6 +31,8 @@ pub struct FilmWaves {
     pub waves: Vec<FilmWave>,
     /// Time over which they grow from nothing, by `(1 - cos(pi t / T)) / 2` (s).
     pub ramp: f64,
+    /// Time at which they begin to grow (s).
+    pub ramp_start: f64,
     /// Since when they are there (s).
     pub since: f64,
 }
@@ -43,7 +45,7 @@ impl FilmWaves {
         if since.is_finite() {
             notes.push(format!("an action changed the environment at {since} s: the surface is flat before"));
         }
-        sea.map(|sea| FilmWaves { waves: waves(sea), ramp: sea.ramp, since })
+        sea.map(|sea| FilmWaves { waves: waves(sea), ramp: sea.ramp, ramp_start: sea.ramp_start, since })
     }
 
     /// Height of the surface above the mean level (m).
@@ -51,7 +53,8 @@ impl FilmWaves {
         if time < self.since {
             return 0.0;
         }
-        let factor = if self.ramp > 0.0 { 0.5 * (1.0 - (PI * (time / self.ramp).clamp(0.0, 1.0)).cos()) } else { 1.0 };
+        let share = || ((time - self.ramp_start) / self.ramp).clamp(0.0, 1.0);
+        let factor = if self.ramp > 0.0 { 0.5 * (1.0 - (PI * share()).cos()) } else { 1.0 };
         let wave = |w: &FilmWave| {
             let [tx, ty] = w.toward;
             w.amplitude * (w.number * (tx * x + ty * y) - w.frequency * time + w.phase).cos()
@@ -72,7 +75,7 @@ fn waves(sea: &Sea) -> Vec<FilmWave> {
     let [only] = sea.components.as_slice() else { return sea.components.iter().map(linear).collect() };
     // behind the ramp, over one period at one place
     let period = TAU / only.frequency;
-    let start = (sea.ramp.max(0.0) / period).ceil() * period;
+    let start = ((sea.ramp_start + sea.ramp.max(0.0)) / period).ceil() * period;
     let samples: Vec<f64> = (0..SAMPLES_PER_PERIOD)
         .map(|n| {
             let angle = TAU * n as f64 / SAMPLES_PER_PERIOD as f64;
@@ -116,8 +119,10 @@ mod tests {
     fn film_surface_matches_sea() {
         let water = Water { depth: None, level: 0.0, gravity: 9.81, density: 1025.0 };
         for components in [vec![component(0.6, 1.5, 0.4)], vec![component(0.5, 1.0, 0.1), component(0.9, 0.4, -2.0)]] {
-            let sea = Sea::airy(components, water, 20.0, Stretching::Linear);
-            let made = FilmWaves { waves: waves(&sea), ramp: sea.ramp, since: f64::NEG_INFINITY };
+            let mut sea = Sea::airy(components, water, 20.0, Stretching::Linear);
+            sea.ramp_start = 15.0;
+            let made =
+                FilmWaves { waves: waves(&sea), ramp: sea.ramp, ramp_start: sea.ramp_start, since: f64::NEG_INFINITY };
             for n in 0..60 {
                 let (x, y, t) = (13.0 * f64::from(n), -7.0 * f64::from(n), 1.7 * f64::from(n));
                 // sums of a few cosines of arguments up to 1e3

@@ -37,7 +37,7 @@ pub fn fender_peaks(run: &Run) -> Result<Vec<FenderPeak>, SolveError> {
         let mut bodies = Vec::new();
         let mut peak: Option<FenderPeak> = None;
         for row in run.history.rows() {
-            let Some(time) = row.first().copied().filter(|t| *t >= run.settings.transient) else { continue };
+            let Some(time) = row.first().copied().filter(|t| *t >= run.statistics_start()) else { continue };
             poses(&run.history.layout, row, &mut bodies);
             let ends = attached.map(|end| End::at_rest(pose_of(&end, &bodies)));
             let at = Situation { ends: &ends, step: None, surroundings: &surroundings };

@@ -427,7 +427,7 @@ fn installed_case(
     let structure = Moored::build(structure, model, (body, centre), actions)?;
     let pose = Pose::from_place(&body.position);
     let course = InstalledRunSettings {
-        start: 0.0,
+        start: settings.start,
         step: settings.step,
         states: settings.states(),
         pose: Pose { origin: pose.point(centre), axes: pose.axes },

@@ -32,7 +32,9 @@ use windlass_signal::running::Running;
 /// How a run of tethers goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TetherRunSettings {
-    /// Time of its end (s); it starts at 0.
+    /// Time of its first instant (s), zero or more.
+    pub start: f64,
+    /// Time from there to its end (s).
     pub observed: f64,
     /// Step (s).
     pub step: f64,
@@ -44,7 +46,7 @@ pub struct TetherRunSettings {
     pub slam: f64,
     /// Velocity over the ground of the tow of a towed tether, global x and y (m/s).
     pub tow: [f64; 2],
-    /// Time that statistics leave out at the beginning (s).
+    /// Time from the start that statistics leave out (s).
     pub transient: f64,
     /// Whether the stored instants are kept; else statistics of them alone are.
     pub keep: bool,
@@ -79,6 +81,16 @@ pub struct Tethered {
 const MAX_STORED_VALUES: f64 = 5e8;
 
 impl TetherRunSettings {
+    /// Time from which on statistics are of it (s): behind its transient.
+    pub fn statistics_start(&self) -> f64 {
+        self.start + self.transient
+    }
+
+    /// Time of a step, from 0 at the start (s).
+    fn time(&self, step: usize) -> f64 {
+        self.start + step as f64 * self.step
+    }
+
     /// Number of states, the first counted.
     fn states(&self) -> usize {
         (self.observed / self.step + 1e-9).floor().max(0.0) as usize + 1
@@ -86,10 +98,17 @@ impl TetherRunSettings {
 
     fn check(&self) -> Result<(), ClassError> {
         let sound = |value: f64| value.is_finite() && value > 0.0;
-        if sound(self.observed) && sound(self.step) && self.step <= self.observed {
+        if self.start.is_finite()
+            && self.start >= 0.0
+            && sound(self.observed)
+            && sound(self.step)
+            && self.step <= self.observed
+        {
             return Ok(());
         }
-        Err(ClassError::new("a run of tethers needs a time and a step above zero, the step not longer than the time"))
+        Err(ClassError::new(
+            "a run of tethers needs a time and a step above zero, a start that is not negative, the step not longer than the time",
+        ))
     }
 
     /// Refuses to keep more than memory has.

@@ -11,6 +11,7 @@ use windlass_tether::installed::modes::modes as installed_modes;
 
 /// Settings under which a case is made to be reported, not to be run.
 const AT_REST: TetherRunSettings = TetherRunSettings {
+    start: 0.0,
     observed: 1.0,
     step: 1.0,
     store: 1,

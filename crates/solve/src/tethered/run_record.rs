@@ -140,8 +140,8 @@ fn fingerprint(case: &TetherCase, settings: &TetherRunSettings) -> u64 {
             format!("{body}{structure:?}{tethers:?}{flow:?}{compatibility:?}{start:?}{centre:?}{points:?}")
         }
     };
-    let TetherRunSettings { step, store, compatible, slam, tow, .. } = settings;
-    let text = format!("{kind}{step:?}{store:?}{compatible:?}{slam:?}{tow:?}");
+    let TetherRunSettings { start: began, step, store, compatible, slam, tow, .. } = settings;
+    let text = format!("{kind}{began:?}{step:?}{store:?}{compatible:?}{slam:?}{tow:?}");
     text.bytes().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
@@ -164,7 +164,7 @@ impl Tethered {
     fn keep_row(&mut self, row: &[f64]) {
         let Some((time, values)) = row.split_first() else { return };
         if !self.settings.keep {
-            if *time >= self.settings.transient {
+            if *time >= self.settings.statistics_start() {
                 for (running, value) in self.running.iter_mut().zip(values) {
                     // times grow and values are finite: the engine sees to both
                     let _ = running.push(*time, *value);
@@ -247,7 +247,7 @@ impl<'a> RunRecorder<'a> {
             return Ok(());
         }
         let snapshot = Snapshot {
-            time: next as f64 * self.kept.settings.step,
+            time: self.kept.settings.time(next),
             taken: next,
             states: numbers(),
             loads: self.kept.event_numbers(),
@@ -308,7 +308,8 @@ fn run_towed(
     watcher: &mut dyn Watcher,
 ) -> Result<(), ClassError> {
     let settings = kept.settings;
-    let steps = TowedSteps { step: settings.step, number: settings.states(), ..TowedSteps::default() };
+    let steps =
+        TowedSteps { start: settings.start, step: settings.step, number: settings.states(), ..TowedSteps::default() };
     let mut observer = TowedKeeper { keeper: RunRecorder::new(kept, watcher), case, error: None };
     match from {
         Some(checkpoint) => case.tether.resume(checkpoint, &steps, &mut observer)?,
@@ -335,8 +336,8 @@ impl InstalledObserver for InstalledKeeper<'_> {
     fn checkpoint(&mut self, next: usize, numbers: &dyn Fn() -> Vec<f64>) -> Result<(), ClassError> {
         self.keeper.checkpoint(next, numbers)?;
         // a stop is seen in the middle of a step, which changes the state
-        let asked = self.keeper.kept.settings.keep
-            && !self.keeper.should_continue(next as f64 * self.keeper.kept.settings.step);
+        let asked =
+            self.keeper.kept.settings.keep && !self.keeper.should_continue(self.keeper.kept.settings.time(next));
         if asked {
             self.last = Some((next, numbers()));
         }

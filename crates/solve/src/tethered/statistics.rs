@@ -68,7 +68,7 @@ impl TetherStatistics {
             )));
         }
         let record = |step: usize| (step - 1) / every;
-        let time = |step: usize| (step - 1) as f64 * run.settings.step;
+        let time = |step: usize| run.settings.time(step - 1);
         let (first, end) = (record(steps.first), record(last));
         let numbered = [(first + 1, time(steps.first)), (end + 1, time(last))];
         let each = every / store;

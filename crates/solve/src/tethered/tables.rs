@@ -73,7 +73,7 @@ pub fn actions(run: &Tethered) -> Table {
 /// Number of a step, from 1 at the start.
 fn step_number(run: &Tethered, instant: usize) -> Option<usize> {
     let time = run.times.get(instant)?;
-    Some((time / run.settings.step).round() as usize + 1)
+    Some(((time - run.settings.start) / run.settings.step).round() as usize + 1)
 }
 
 /// Positions, velocities and accelerations of the nodes at some instants, from the vessel down [AQWA-TETHER 7.3].

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use windlass_base::geometry::Position;
 use windlass_base::units::Dim;
 use windlass_hydro::sea::Sea;
-use windlass_model::{ClassError, Model};
+use windlass_model::{ClassError, Environment, Model};
 
 /// Most parts of a step that is divided for what is wound in it.
 const MAX_STEP_PARTS: f64 = 1000.0;
@@ -311,7 +311,8 @@ impl Run {
             ActionKind::Environment(name) => {
                 let found = self.model.environments.get(&Model::key(name)).cloned();
                 let missing = || SolveError::new(ClassError::new(format!("there is no environment {name}")));
-                self.model.environment = found.ok_or_else(missing)?;
+                // ramps count from the start of this run
+                self.model.environment = Environment { run_start: self.start(), ..found.ok_or_else(missing)? };
                 self.sea = Sea::new(&self.model, &self.model.environment).map_err(SolveError::new)?.map(Arc::new);
                 self.seas.push((self.now.time, self.sea.clone()));
                 let memory = self.system.rebuild_loads(&self.model, self.sea.as_ref(), &self.now.memory)?;

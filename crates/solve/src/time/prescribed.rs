@@ -27,15 +27,19 @@ pub trait Prescribed: Debug + Send + Sync {
     fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError>;
 }
 
-/// The motion a body of a model is given in a sea, from where it stands; `None` of one that forces move.
+/// The motion a body of a model is given in a sea, from where it stands, in a run that begins at `start` (s); `None` of one that forces move.
 ///
 /// # Errors
 /// Waves beyond a table of responses.
-pub fn build_prescribed(body: &Body, sea: Option<&Arc<Sea>>) -> Result<Option<Box<dyn Prescribed>>, ClassError> {
+pub fn build_prescribed(
+    body: &Body,
+    sea: Option<&Arc<Sea>>,
+    start: f64,
+) -> Result<Option<Box<dyn Prescribed>>, ClassError> {
     let Some(given) = &body.prescribed else { return Ok(None) };
     let made: Box<dyn Prescribed> = match &given.motion {
         GivenMotion::Sinusoids { list, ramp } => {
-            Box::new(SinusoidalMotion { position: body.position, list: list.clone(), ramp: *ramp })
+            Box::new(SinusoidalMotion { position: body.position, list: list.clone(), ramp: *ramp, start })
         }
         GivenMotion::Responses(table) => {
             Box::new(RaoMotion::new(body.position, table, sea).map_err(|e| e.with_span(given.span))?)
@@ -80,6 +84,8 @@ struct SinusoidalMotion {
     position: Place,
     list: Vec<Sinusoid>,
     ramp: f64,
+    /// Time at which the ramp begins (s).
+    start: f64,
 }
 
 /// A ramp from 0 to 1 with its first and second derivatives, all of them without a jump: `10 s^3 - 15 s^4 + 6 s^5`.
@@ -100,7 +106,7 @@ pub(super) fn product(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
 
 impl Prescribed for SinusoidalMotion {
     fn motion_at(&self, time: f64) -> Result<BodyMotion, ClassError> {
-        let grown = ramp(time, self.ramp);
+        let grown = ramp(time - self.start, self.ramp);
         let mut dofs = [self.position.values(), [0.0; 6], [0.0; 6]];
         for sine in &self.list {
             let frequency = TAU / sine.period;

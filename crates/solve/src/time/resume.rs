@@ -49,10 +49,10 @@ impl Run {
             for c in &sea.components {
                 made.numbers([c.frequency, c.number, c.amplitude, c.phase].iter().chain(&c.toward));
             }
-            made.numbers(&[sea.ramp]);
+            made.numbers(&[sea.ramp, sea.ramp_start]);
         }
         let RunSettings { dt, method, convergence, adaptive, .. } = &self.settings;
-        made.numbers(&[*dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
+        made.numbers(&[self.start(), *dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
         made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
         made.numbers(self.model.parameters.dividing.as_slice());
         // they stand in what lines remember

@@ -119,20 +119,21 @@ impl Run {
         let memory = LoadMemory::new(&system);
         let fired = vec![None; actions.len()];
         let near = model.bodies.values().map(|b| b.position).collect();
-        let from = settings.transient;
+        let start = model.environment.run_start;
+        let statistics_start = start + settings.transient;
         let mut run = Run {
-            now: SystemInstant { motions, memory, ..SystemInstant::default() },
+            now: SystemInstant { time: start, motions, memory, ..SystemInstant::default() },
             model,
             settings,
             actions,
             fired,
-            statistics: RunStatistics::new(&layout, from),
+            statistics: RunStatistics::new(&layout, statistics_start),
             envelopes: vec![AlongEnvelope::default(); layout.links.len()],
             history: History::new(layout),
             counts: RunCounts::default(),
             resolution: Resolution::default(),
             accuracy: Accuracy::default(),
-            seas: vec![(0.0, sea.clone())],
+            seas: vec![(start, sea.clone())],
             sea,
             system,
             taken: 0,
@@ -200,6 +201,21 @@ impl Run {
         Ok(())
     }
 
+    /// Time of its first instant (s).
+    pub fn start(&self) -> f64 {
+        self.origin.environment.run_start
+    }
+
+    /// Time of its end, if nothing ends it before (s).
+    pub fn end(&self) -> f64 {
+        self.start() + self.settings.observed
+    }
+
+    /// Time from which on statistics are of it (s): behind its transient.
+    pub fn statistics_start(&self) -> f64 {
+        self.start() + self.settings.transient
+    }
+
     /// Takes steps to the end.
     ///
     /// # Errors
@@ -214,14 +230,18 @@ impl Run {
         let steps = (self.settings.observed / self.settings.dt - 1e-9).ceil().max(0.0) as usize;
         // one that goes on from its start has that row
         if self.taken == 0 && self.history.is_empty() {
+            let stop = self.process_events()?;
             self.record(watcher)?;
             self.write_snapshot(watcher)?;
+            if let Some(name) = stop {
+                return Ok(Ending::Stopped(name));
+            }
         }
         while self.taken < steps {
             if !watcher.should_continue(self.now.time) {
                 return Ok(Ending::Interrupted);
             }
-            let end = (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
+            let end = self.start() + (self.settings.dt * (self.taken + 1) as f64).min(self.settings.observed);
             let mut stop = match self.advance_to(end) {
                 Ok(stop) => stop,
                 // a factorisation that listened ends its step with an error
@@ -399,7 +419,7 @@ impl Run {
         self.statistics.take(&self.row).map_err(wrong)?;
         if self.settings.keep {
             self.history.values.extend_from_slice(&self.row);
-        } else if now.time >= self.settings.transient {
+        } else if now.time >= self.origin.environment.run_start + self.settings.transient {
             for (link, envelope) in self.history.layout.links.iter().zip(&mut self.envelopes) {
                 if let Some(along) = &link.along {
                     envelope.take(along, &self.row).map_err(wrong)?;

@@ -32,7 +32,7 @@ pub struct RunSettings {
     pub along: usize,
     /// Keeps the energy and momentum balance of dynamic lines.
     pub balance: bool,
-    /// Time that statistics leave out at the beginning (s).
+    /// Time from the start of the run that statistics leave out (s).
     pub transient: f64,
 }
 

@@ -56,8 +56,8 @@ pub(crate) fn instants(run: &Tethered, args: &Args) -> Outcome<Vec<usize>> {
     Ok(list)
 }
 
-/// How much of the beginning of the last run statistics of a result leave out (s): nothing where -EVENTS chooses instants.
-pub(crate) fn transient_of(job: &Job, args: &Args) -> f64 {
+/// The time before which statistics of a result leave the last run out (s): none where it has no transient, or -EVENTS chooses instants.
+pub(crate) fn transient_of(job: &Job, args: &Args) -> Option<f64> {
     let run = job.tethered.as_ref().filter(|_| !args.has(&EVENTS));
-    run.map_or(0.0, |run| run.settings.transient)
+    run.filter(|run| run.settings.transient > 0.0).map(|run| run.settings.statistics_start())
 }

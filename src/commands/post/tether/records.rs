@@ -41,7 +41,8 @@ pub(super) fn find_statistics(query: &TetherQuery) -> Outcome<TetherStatistics> 
         return TetherStatistics::between_steps(run, steps).map_err(|e| Diagnostic::error(e.to_string(), given.span));
     }
     let given = args.option(&EVENTS);
-    let from = given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.transient);
+    let from =
+        given.and_then(|given| given.number(const { EVENTS.number("BEG") })).unwrap_or(run.settings.statistics_start());
     let to = given.and_then(|given| given.number(const { EVENTS.number("END") })).unwrap_or(f64::INFINITY);
     Ok(TetherStatistics::new(run, from, to))
 }

@@ -123,7 +123,8 @@ impl RaoMotion {
 
     /// The ramp of the sea with its derivatives: `(1 - cos(pi t/T))/2`.
     fn ramp_factor(&self, time: f64) -> [f64; 3] {
-        let over = self.sea.as_ref().map_or(0.0, |s| s.ramp);
+        let (over, start) = self.sea.as_ref().map_or((0.0, 0.0), |s| (s.ramp, s.ramp_start));
+        let time = time - start;
         if over <= 0.0 || time >= over {
             return [1.0, 0.0, 0.0];
         }
