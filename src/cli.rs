@@ -322,24 +322,41 @@ fn print_bytes(bytes: &[u8]) -> u8 {
 /// Writes the made pages of the manual below a folder; returns the exit code.
 fn write_manual(dir: &Path) -> u8 {
     let pages = manual::build_pages();
-    let mut written = Vec::new();
+    let mut written = 0;
     for page in &pages {
         let path = dir.join(&page.path);
         let (parent, name) = (path.parent().unwrap_or(dir), path.file_name().unwrap_or_default());
         let made = std::fs::create_dir_all(parent).map_err(|error| format!("{}: {error}", parent.display()));
         let folder = JobFolder::new(PathBuf::from("manual"), Some(parent.to_path_buf()), false);
         let done = made.and_then(|()| folder.check().map_err(|e| e.to_string())).and_then(|()| {
-            folder.write(&name.to_string_lossy(), page.text.as_bytes()).map_err(|error| error.to_string())
+            // a page of an earlier version makes way; what is no such page is kept under another name
+            match std::fs::read_to_string(&path) {
+                Ok(earlier) if manual::is_made_page(&earlier) => replace_page(&path, page, &earlier),
+                _ => {
+                    let done = folder.write(&name.to_string_lossy(), page.text.as_bytes());
+                    done.map(drop).map_err(|error| error.to_string())
+                }
+            }
         });
         match done {
-            Ok(position) => written.push(position),
+            Ok(()) => written += 1,
             Err(error) => {
                 complain(&format!("the manual cannot be written: {error}"));
                 return 1;
             }
         }
     }
-    print_bytes(format!("{} pages below {}\n", written.len(), printable(&dir.display().to_string())).as_bytes())
+    print_bytes(format!("{written} pages below {}\n", printable(&dir.display().to_string())).as_bytes())
+}
+
+/// Puts a made page in the place of an earlier one, whole or not at all; one that is the same stays as it is.
+fn replace_page(path: &Path, page: &manual::Page, earlier: &str) -> Result<(), String> {
+    if earlier == page.text {
+        return Ok(());
+    }
+    let fresh = path.with_extension("md.new");
+    let done = std::fs::write(&fresh, &page.text).and_then(|()| std::fs::rename(&fresh, path));
+    done.map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// How to run a file that has the name of a command, where there is one.

@@ -1,7 +1,7 @@
 //! `&HELP WORD` where the word names nothing: all that says it, names first.
 
 use crate::commands::help::wrap;
-use crate::commands::report_columns::REPORT_COLUMNS;
+use crate::commands::report_columns::report_columns;
 use crate::commands::{COMMANDS, FUNCTION_HELP, Job, absent, status};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_connectors::class_specs;
@@ -98,11 +98,10 @@ pub(super) fn search(job: &Job, word: &str, width: usize) -> Option<String> {
             &[],
         );
     }
-    for column in REPORT_COLUMNS {
-        let label = column.dim.label(job.units);
-        let unit = if label.is_empty() { String::new() } else { format!(" ({label})") };
-        let help = format!("column of {}: {}{unit}", column.report, column.meaning);
-        search.look_at(column.name, format!("'{}'", column.name), &help, &[]);
+    for (name, unit, meaning, reports) in explained_columns(job.units) {
+        let unit = if unit.is_empty() { unit } else { format!(" ({unit})") };
+        let help = format!("column of {}: {meaning}{unit}", reports.join("; "));
+        search.look_at(name, format!("'{name}'"), &help, &[]);
     }
     for entry in absent::ABSENT {
         search.look_at(entry.name, entry.name.to_string(), &entry.sentence(), &[entry.instead]);
@@ -129,6 +128,26 @@ pub(super) fn search(job: &Job, word: &str, width: usize) -> Option<String> {
     }
     lines.push("&HELP NAME explains one, &HELP NAME -OPTION an option alone.".into());
     Some(lines.join("\n"))
+}
+
+/// A column of reports: its name, its unit, what it is, and what prints it.
+type ExplainedColumn = (&'static str, String, &'static str, Vec<&'static str>);
+
+/// The columns of reports; one that several reports have alike stands once.
+fn explained_columns(units: UnitSystem) -> Vec<ExplainedColumn> {
+    let mut made: Vec<ExplainedColumn> = Vec::new();
+    for report in report_columns() {
+        for column in report.columns.iter().filter(|column| !matches!(column.name(), "" | "@")) {
+            let (name, unit) = (column.name(), column.unit(units));
+            let same = |known: &&mut ExplainedColumn| (known.0, &known.1, known.2) == (name, &unit, column.meaning);
+            match made.iter_mut().find(same) {
+                Some(known) if known.3.contains(&report.printed_by) => {}
+                Some(known) => known.3.push(report.printed_by),
+                None => made.push((name, unit, column.meaning, vec![report.printed_by])),
+            }
+        }
+    }
+    made
 }
 
 /// Quantities that records and reports have, for `&HELP UNITS`.

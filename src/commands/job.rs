@@ -19,6 +19,7 @@ use crate::report::live::LivePageFile;
 use crate::report::output::Output;
 use crate::report::page::{self, PageHead};
 use crate::report::run_log::StoredRun;
+use crate::report::taken_state::TakenState;
 use indexmap::IndexMap;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -348,6 +349,10 @@ pub struct Job {
     pub run: Option<Run>,
     /// A run read from its file, which the next TDOM takes instead of running.
     pub stored_run: Option<StoredRun>,
+    /// States that records took from earlier runs, with the number of records executed before each.
+    pub taken_states: Vec<(usize, TakenState)>,
+    /// Those that the records of a stored run took, which its own records take again.
+    pub offered_states: Vec<TakenState>,
     /// The last run of tethers.
     pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
@@ -405,6 +410,8 @@ impl Job {
             processes: IndexMap::new(),
             run: None,
             stored_run: None,
+            taken_states: Vec::new(),
+            offered_states: Vec::new(),
             tethered: None,
             scatter: Vec::new(),
             verdict: Verdict::default(),
@@ -424,6 +431,26 @@ impl Job {
         if let Some(kept) = &mut self.kept_tables {
             kept.push(KeptTable { table: table.clone(), units });
         }
+    }
+
+    /// The state of the last run at the stored instant nearest to a time (s), for a record that takes it: it is kept for the file of
+    /// the run that the record leads to. `None` where there is no run.
+    pub fn take_state(&mut self, time: f64) -> Option<TakenState> {
+        let state = match &self.run {
+            Some(run) => TakenState::from_history(&run.history, time)?,
+            None => {
+                let offered = self.offered_states.iter().position(|state| state.time == time)?;
+                self.offered_states.remove(offered)
+            }
+        };
+        self.taken_states.push((self.journal.records().len(), state.clone()));
+        Some(state)
+    }
+
+    /// The states that records took from earlier runs, those of records that were taken back left out.
+    pub fn states_taken(&self) -> impl Iterator<Item = &TakenState> {
+        let undone = |record: &usize| self.journal.records().get(*record).is_some_and(|record| record.is_undone);
+        self.taken_states.iter().filter(move |(record, _)| !undone(record)).map(|(_, state)| state)
     }
 
     /// Whether Ctrl-C has been pressed since the record began.

@@ -20,7 +20,7 @@ mod model_values;
 mod name_filter;
 mod output;
 mod post;
-mod report_columns;
+pub mod report_columns;
 mod settings;
 mod solve;
 mod status;
@@ -47,6 +47,7 @@ use output::{
 use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, history, parameter, units};
+pub use solve::lines::ADDED as COLUMNS_OF_LINES;
 pub use solve::stored::{StoredError, find_stored};
 pub(crate) use solve::summary::count;
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};

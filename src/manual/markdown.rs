@@ -52,7 +52,7 @@ pub fn table<const N: usize>(heads: [&str; N], rows: &[[String; N]]) -> String {
 }
 
 /// The unit of a dimension in feet and kips, and in metres and kilonewtons where it is another.
-fn unit_names(dim: Dim) -> String {
+pub fn unit_names(dim: Dim) -> String {
     let (ours, metric) = (dim.label(UnitSystem::default()), dim.label(METRIC));
     if ours == metric { ours } else { format!("{ours} or {metric}") }
 }

@@ -14,6 +14,11 @@ pub struct Page {
     pub text: String,
 }
 
+/// Whether a text is such a page, of this or of another version.
+pub fn is_made_page(text: &str) -> bool {
+    text.contains(reference::MADE.trim_end())
+}
+
 /// All pages that are made from declarations, in the order of the manual.
 pub fn build_pages() -> Vec<Page> {
     let mut pages = reference::build_pages();

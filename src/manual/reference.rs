@@ -1,7 +1,8 @@
 //! The reference: a page a menu, one each of class types, string functions, reports and spectra.
 
 use super::Page;
-use super::markdown::{code, command_section, describe_owner, escape, sentence, table};
+use super::markdown::{code, command_section, describe_owner, escape, sentence, table, unit_names};
+use crate::commands::report_columns::{ReportColumn, report_columns};
 use crate::commands::{COMMANDS, Command, FUNCTION_HELP, menu, status_rows};
 use windlass_base::units::UnitSystem;
 use windlass_connectors::{CLASSES, SECTIONS, class_specs};
@@ -12,7 +13,8 @@ use windlass_language::functions;
 use windlass_language::spec::{CommandSpec, Kind, MenuSpec, describe_expected};
 
 /// What stands on top of each page.
-const MADE: &str = "<!-- Made from the declarations in the source by `windlass manual`; do not edit. -->\n\n";
+pub(super) const MADE: &str =
+    "<!-- Made from the declarations in the source by `windlass manual`; do not edit. -->\n\n";
 
 /// A page of commands.
 struct Chapter {
@@ -136,12 +138,13 @@ pub fn build_pages() -> Vec<Page> {
     );
     let kinds: Vec<_> = status_rows().collect();
     add("status", "Kinds of &STATUS", list_names(kinds.iter().map(|kind| kind.0)), status_table(&kinds));
+    add("columns", "Columns of reports", "every column, its unit and its meaning".to_string(), column_tables());
     add("spectra", "Wave and gust spectra", list_names(SPECTRA.iter().map(|s| s.name)), spectra_tables());
-    let head = "# Reference\n\nEvery command, option, class, function and report, from the declarations that the program itself reads. \
+    let head = "Every command, option, class, function and report, from the declarations that the program itself reads. \
                 Numbers are in the units of `&DIMEN`: feet and kips unless it says otherwise; where two units are named, the \
                 first is that of feet and kips, the second that of metres and kilonewtons. Words may be shortened to any beginning that \
                 is unique; a beginning that is unique among the names of MOSES stays valid. `&HELP NAME` prints the same at the terminal.\n\n";
-    let index = format!("{head}{}", table(["Page", "Names"], &listed));
+    let index = format!("# Reference\n\n{MADE}{head}{}", table(["Page", "Names"], &listed));
     pages.insert(0, page("index", &index));
     pages
 }
@@ -206,6 +209,33 @@ fn status_table(kinds: &[(&str, String, windlass_language::select::Owner)]) -> S
         "`&STATUS KIND` prints the tables of a kind. `-HARD` writes them to the output file.\n\n{}",
         table(["Kind", "Reports"], &rows)
     )
+}
+
+/// What the columns of every report are.
+fn column_tables() -> String {
+    let head = "What the columns of reports mean, by what prints them. A file has the same columns as the report, its heads with the group and the \
+                unit. `Group: Name` is a column below a shared head, as `VLIST` prints it; `@` stands for the name of a body, a connector, \
+                a point or a column. `&HELP NAME` finds a column at the terminal.\n\n";
+    let unit = |column: &ReportColumn| match column.units {
+        [] => "of the column described".to_string(),
+        dims => {
+            let mut names: Vec<String> =
+                dims.iter().map(|dim| unit_names(*dim)).filter(|name| !name.is_empty()).collect();
+            names.dedup();
+            names.join("; ")
+        }
+    };
+    let sections = report_columns().map(|report| {
+        let rows: Vec<[String; 3]> = report
+            .columns
+            .iter()
+            .map(|column| [code(column.head), escape(&unit(column)), escape(&sentence(column.meaning))])
+            .collect();
+        let titles: Vec<String> = report.titles.iter().map(|title| escape(title)).collect();
+        let titles = if report.titles == ["@"] { String::new() } else { format!("Tables: {}.\n\n", titles.join("; ")) };
+        format!("## {}\n\n{titles}{}", escape(report.printed_by), table(["Column", "Unit", "Meaning"], &rows))
+    });
+    format!("{head}{}", sections.collect::<String>())
 }
 
 fn spectra_tables() -> String {

@@ -20,4 +20,5 @@ pub mod readback;
 pub mod run_log;
 pub mod statistic;
 mod stored;
+pub mod taken_state;
 pub mod xlsx;

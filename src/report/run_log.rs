@@ -1,17 +1,18 @@
 //! The file of a run: rows and snapshots as they come, so that a run that was killed goes on from its last snapshot.
 //!
-//! Lanes8 bytes of mark, the fingerprint of the run, the width of its rows; then blocks: a byte that says what it is (`R` a row,
-//! `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
+//! 8 bytes of mark, the fingerprint of the run, the width of its rows; then blocks: a byte that says what it is (`B` a state that the
+//! bodies took from an earlier run, `R` a row, `S` a snapshot), the number of bytes, the bytes, and their checksum (FNV-1a, 64 bits). Numbers are little-endian. What stands
 //! behind the last whole block was being written when the program ended, and does not count.
 
 use super::files::is_unlinked;
+use super::taken_state::TakenState;
 use std::fs::File;
 use std::io::{BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 use windlass_solve::time::{RunFileError, Snapshot, Watcher};
 
 /// Begins every such file; its last byte is the version.
-pub const MARK: [u8; 8] = *b"WINDRUN\x03";
+pub const MARK: [u8; 8] = *b"WINDRUN\x04";
 /// Bytes of the head.
 const HEADER_BYTES: usize = 24;
 
@@ -27,6 +28,8 @@ pub struct RunLog {
 pub struct StoredRun {
     /// The fingerprint of the run.
     pub fingerprint: u64,
+    /// States that the records of the run took from earlier runs.
+    pub taken_states: Vec<TakenState>,
     /// Numbers of a row.
     pub width: usize,
     /// Rows up to the snapshot, one behind the other.
@@ -67,16 +70,23 @@ fn checksum(bytes: &[u8]) -> u64 {
 }
 
 impl RunLog {
-    /// Begins an empty file.
+    /// Begins a file, with the states that the records of the run took from earlier runs.
     ///
     /// # Errors
     /// What the system refuses.
-    pub fn begin(file: File, path: PathBuf, fingerprint: u64, width: usize) -> Result<Self, RunLogError> {
+    pub fn begin<'a>(
+        (file, path): (File, PathBuf),
+        (fingerprint, width): (u64, usize),
+        taken: impl IntoIterator<Item = &'a TakenState>,
+    ) -> Result<Self, RunLogError> {
         let mut log = RunLog { file: BufWriter::new(file), path };
         let mut head = MARK.to_vec();
         head.extend_from_slice(&fingerprint.to_le_bytes());
         head.extend_from_slice(&(width as u64).to_le_bytes());
         log.file.write_all(&head).map_err(|error| log.unwritable(error))?;
+        for state in taken {
+            log.block(b'B', &state.bytes()).map_err(|error| log.unwritable(error))?;
+        }
         Ok(log)
     }
 
@@ -143,9 +153,10 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLo
         return Err(version.map_or(RunLogError::Other, |version| RunLogError::Version(*version)));
     }
     let (fingerprint, width) = (word(8)?, usize::try_from(word(16)?).map_err(|_| RunLogError::Other)?);
-    let (mut at, mut found, mut rows) = (HEADER_BYTES, None, Vec::new());
+    let (mut at, mut found, mut rows, mut taken_states) = (HEADER_BYTES, None, Vec::new(), Vec::new());
     while let Some((kind, block, next)) = block(&bytes, at) {
         match kind {
+            b'B' => taken_states.push(TakenState::read(block).ok_or(RunLogError::Other)?),
             b'R' if block.len() == width.saturating_mul(8) => {
                 if !block.first_chunk::<8>().is_some_and(|b| f64::from_le_bytes(*b).is_finite()) {
                     return Err(RunLogError::NotFinite);
@@ -170,7 +181,7 @@ pub fn read(file: &mut (impl Read + Seek), time: f64) -> Result<StoredRun, RunLo
     let last = rows.len().checked_sub(width).and_then(|at| rows.get(at)).copied();
     let last_time = last.map_or(snapshot.time, |time| time.max(snapshot.time));
     rows.truncate(length);
-    Ok(StoredRun { fingerprint, width, rows, snapshot, last_time, end })
+    Ok(StoredRun { fingerprint, taken_states, width, rows, snapshot, last_time, end })
 }
 
 /// Whether a run can go on from here: its time and what moves.
@@ -199,7 +210,7 @@ mod tests {
     fn start_log(folder: &std::path::Path) -> (RunLog, PathBuf) {
         let path = folder.join("TDOM.run");
         let file = File::options().read(true).write(true).create_new(true).open(&path).unwrap();
-        (RunLog::begin(file, path.clone(), 1, 2).unwrap(), path)
+        (RunLog::begin((file, path.clone()), (1, 2), []).unwrap(), path)
     }
 
     fn snapshot_at(time: f64) -> Snapshot {
@@ -236,7 +247,7 @@ mod tests {
         let mut bytes = std::fs::read(&path).unwrap();
         bytes[7] = 9;
         let said = read(&mut std::io::Cursor::new(bytes), 1.0).unwrap_err().to_string();
-        assert!(said.contains("its form is 9, this version reads form 3"), "{said}");
+        assert!(said.contains("its form is 9, this version reads form 4"), "{said}");
     }
 
     #[cfg(unix)]

@@ -124,6 +124,8 @@ impl Session {
         let model = records.trim_end();
         let (model, last) = model.rsplit_once('\n').unwrap_or(("", model));
         self.job.settings.silent = true;
+        // the records that took them ask for them in this order
+        self.job.offered_states = kept.taken_states.clone();
         self.open("the records of the run", format!("{model}\n"));
         self.run();
         self.job.menus.truncate(1);
@@ -333,7 +335,10 @@ impl Session {
                 false
             }
             Effect::Say(text) => {
-                self.job.say(&text);
+                self.job.say_fitted(|width| match width {
+                    Some(_) => page::fold_text(&text, width),
+                    None => text.clone(),
+                });
                 false
             }
             Effect::Set(name, value) => {

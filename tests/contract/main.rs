@@ -6,6 +6,7 @@ mod coverage;
 mod crates;
 mod manual;
 mod registries;
+mod report_columns;
 mod sources;
 mod specs;
 mod value_keys;

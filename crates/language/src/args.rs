@@ -12,7 +12,7 @@ use super::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, describe_expected};
 use super::token::TokenKind as Lex;
 use convert::{convert, take};
 use std::collections::BTreeMap;
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, did_you_mean};
 use windlass_base::span::Span;
 use windlass_base::units::UnitSystem;
 use windlass_base::values::{Args, Given, Value};
@@ -26,7 +26,7 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
     let mut args = Args { declared: spec.options, declared_data: spec.data, ..Args::empty(command) };
     let mut data: Vec<&Word> = Vec::new();
     // words behind an option that could have been its choice and are none of it
-    let mut declined: Vec<(&Word, &'static OptionSpec, &'static ValueSpec)> = Vec::new();
+    let mut declined: Vec<DeclinedChoice> = Vec::new();
     // data behind an option's values, each with the option
     let mut behind: Vec<(&Word, &Given)> = Vec::new();
     let mut trailing: Vec<(&Word, usize)> = Vec::new();
@@ -53,7 +53,7 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
             if let (Some(next), Some(value)) = (words.get(at), option.values.get(taken.len()))
                 && matches!(value.kind, Kind::Choice(_))
             {
-                declined.push((next, option, value));
+                declined.push(DeclinedChoice { word: next, option, value });
             }
         } else {
             if let Some(option) = args.options.len().checked_sub(1) {
@@ -65,26 +65,40 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
     }
     behind.extend(trailing.iter().filter_map(|(word, option)| Some((*word, args.options.get(*option)?))));
     args.data = convert(spec.data, spec.repeat, spec.name, command, &data, units).map_err(|error| {
-        let meant = declined.iter().find(|(word, ..)| error.span == Some(word.span));
+        let meant = declined.iter().find(|choice| error.span == Some(choice.word.span));
         let stray = behind.iter().find(|(word, _)| error.span == Some(word.span));
         match (meant, stray) {
-            (Some((word, option, value)), _) => Diagnostic::error(
-                format!(
-                    "{} of {} of {} must be {}",
-                    value.name,
-                    option.name,
-                    spec.name,
-                    describe_expected(value.kind, units)
-                ),
-                word.span,
-            )
-            .label(format!("nor can this be a datum: {}", error.message)),
+            (Some(choice), _) => choice.error(spec, units).label(format!("nor can this be a datum: {}", error.message)),
             (None, Some((word, given))) => hint(error, &spec.syntax()).help(missing_option(word, given)),
             (None, None) => hint(error, &spec.syntax()),
         }
     })?;
-    strays(spec, &args.data, &behind)?;
+    strays(spec, &args.data, &behind, &declined, units)?;
     Ok(args)
+}
+
+/// A word behind an option that could have been one of its choices and is none.
+struct DeclinedChoice<'w> {
+    word: &'w Word,
+    option: &'static OptionSpec,
+    value: &'static ValueSpec,
+}
+
+impl DeclinedChoice<'_> {
+    /// What the value must be, with the choice that is nearest to the word.
+    fn error(&self, spec: &CommandSpec, units: UnitSystem) -> Box<Diagnostic> {
+        let expected = describe_expected(self.value.kind, units);
+        let text = format!("{} of {} of {} must be {expected}", self.value.name, self.option.name, spec.name);
+        let error = Diagnostic::error(text, self.word.span);
+        let near = match self.value.kind {
+            Kind::Choice(choices) => did_you_mean(&self.word.text, choices.iter().copied()),
+            _ => None,
+        };
+        match near {
+            Some(near) => error.help(near),
+            None => error,
+        }
+    }
 }
 
 /// Words behind the values of an option that are data by nothing but their place: a unit, a value too many, the values of an option
@@ -92,7 +106,13 @@ pub fn read(spec: &'static CommandSpec, command: Span, words: &[Word], units: Un
 ///
 /// # Errors
 /// The first such word.
-fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Outcome<()> {
+fn strays(
+    spec: &CommandSpec,
+    data: &[Value],
+    behind: &[(&Word, &Given)],
+    declined: &[DeclinedChoice],
+    units: UnitSystem,
+) -> Outcome<()> {
     if spec.interleaved || behind.is_empty() {
         return Ok(());
     }
@@ -119,6 +139,12 @@ fn strays(spec: &CommandSpec, data: &[Value], behind: &[(&Word, &Given)]) -> Out
             !shows && !matches!(value.kind, Kind::Choice(_))
         };
         if let Some((word, given, (value, _))) = kinds.iter().find(|(word, _, (value, _))| by_place(word, value)) {
+            if let Some(choice) = declined.iter().find(|choice| choice.word.span == word.span) {
+                return Err(choice
+                    .error(spec, units)
+                    .label(format!("{} of {} stands before the options", value.name, spec.name))
+                    .help(format!("form: {}", spec.syntax())));
+            }
             return Err(Diagnostic::error(
                 format!("`{}` follows {}, which takes no further value", word.text, given.name()),
                 word.span,

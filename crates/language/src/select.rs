@@ -73,14 +73,22 @@ pub fn choose<T: Copy + PartialEq>(
                 Some(help) => error.help.push(help),
                 None => {
                     let all: Vec<&str> = names.map(|(name, _, _)| name).collect();
-                    if (1..=24).contains(&all.len()) {
-                        error.help.push(format!("known: {}", all.join(" ")));
+                    if all.len() <= MOST_LISTED {
+                        error.help.extend(list_known(&all));
                     }
                 }
             }
             Err(error)
         }
     }
+}
+
+/// Names that are listed where a name is none of them and near none.
+const MOST_LISTED: usize = 24;
+
+/// The names there are, for a help line; `None` of none.
+pub fn list_known(names: &[&str]) -> Option<String> {
+    (!names.is_empty()).then(|| format!("known: {}", names.join(" ")))
 }
 
 #[cfg(test)]

@@ -92,10 +92,9 @@ pub struct WallMaterial {
 }
 
 impl Class {
-    /// Whether its segments bend, one a record: all but those of `-EI 0`.
-    pub fn bending_segments(&self) -> impl Iterator<Item = bool> {
-        let stiffness = |record: &ClassRecord| record.args.number_if_declared(&EI);
-        self.records.iter().map(move |record| stiffness(record) != Some(0.0))
+    /// The bending stiffness of its segments by `-EI` (N m2), one a record; `None` where it is that of the section.
+    pub fn given_bending_stiffnesses(&self) -> impl Iterator<Item = Option<f64>> {
+        self.records.iter().map(|record| record.args.number_if_declared(&EI))
     }
 
     /// What the walls of its segments are made of, one a record: of its options, else of `&DEFAULT` when it was read.

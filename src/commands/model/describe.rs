@@ -7,7 +7,6 @@ use crate::commands::model::piece::{self, OPTIONS};
 use crate::commands::model::process;
 use crate::commands::model::sensor;
 use crate::commands::name_filter::NameFilter;
-use crate::commands::solve::tdom;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::{Choice, Dof, YesNo};
 use windlass_base::choices;
@@ -510,12 +509,12 @@ fn move_point(model: &mut Model, given: &Given) -> Outcome<()> {
 }
 
 fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let model = &mut job.model;
-    let before: Vec<Place> = model.bodies.values().map(|b| b.position).collect();
+    let before: Vec<Place> = job.model.bodies.values().map(|b| b.position).collect();
     if let (Some(given), true) = (call.args.option(&PREVIOUS), call.args.options.len() > 1) {
         return Err(Diagnostic::error("-PREVIOUS stands alone", given.span));
     }
     for given in &call.args.options {
+        let model = &mut job.model;
         let body = || -> Outcome<String> {
             let named = given.first_word().map(|name| (name, given.first_place()));
             let own = call.args.word(INSTATE_BODY).map(|name| (name, call.args.position(INSTATE_BODY)));
@@ -543,7 +542,7 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     checking.hangs_on_result = true;
                     continue;
                 }
-                tdom::reset(job.run.as_ref(), model, time).ok_or_else(|| {
+                job.take_state(time).and_then(|state| state.put(&mut job.model)).ok_or_else(|| {
                     Diagnostic::error("there is no run of these bodies to take an event of", given.span)
                 })?;
             }
@@ -567,7 +566,7 @@ fn instate(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
         }
     }
-    for (body, position) in model.bodies.values_mut().zip(before) {
+    for (body, position) in job.model.bodies.values_mut().zip(before) {
         body.previous = position;
     }
     Ok(Effect::Done)

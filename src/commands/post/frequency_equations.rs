@@ -113,6 +113,7 @@ fn print_matrices(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     }
     let table = matrices(&made.linear, &made.frame, &made.frequencies);
+    job.keep_table(&table);
     let bytes = csv::bytes(&table, job.units).map_err(|e| Diagnostic::error(e.to_string(), span))?;
     let name = job.next_unnamed_file();
     write_file(job, &name, &bytes, span)?;

@@ -10,6 +10,7 @@ use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::frequency::{
     FrequencyResults, PlacedPoint, heaving, keep_points, no_motions, open_results, seas,
 };
+use crate::commands::solve::summary::{WorstLine, count, of_statistics, worst_in_sea};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use nalgebra::Vector3;
@@ -17,7 +18,7 @@ use std::sync::Arc;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
-use windlass_base::table::Table;
+use windlass_base::table::{Cell, Table};
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun, Value};
 use windlass_language::number::evaluate;
@@ -153,6 +154,28 @@ pub(super) fn dispose(job: &mut Job, made: Table, span: Span) -> Effect {
     raise(job, &made, span);
     job.menus.push(Menu::Disposition(Box::new(Disposition::new(made))));
     Effect::Done
+}
+
+/// Prints the summary of statistics, with the worst line where they are of lines, and opens the disposition menu over them. `rounds` is how
+/// often damping was linearised.
+pub(super) fn dispose_statistics(
+    job: &mut Job,
+    (command, rounds): (&str, usize),
+    made: Table,
+    worst: Option<WorstLine>,
+    span: Span,
+) -> Effect {
+    let solved = match rounds {
+        0 => "none: the equations are linear and solved directly".to_string(),
+        _ => format!("damping and velocities agree after {}", count(rounds, "round")),
+    };
+    let mut summary = of_statistics(command, &made, &solved, job.units);
+    if worst.is_some() {
+        summary = summary.worst(worst, job.units);
+    }
+    let effect = dispose(job, made, span);
+    summary.print(job, "REPORT prints all rows, STORE FILE writes them, END leaves");
+    effect
 }
 
 /// The table of what is found: amplitudes and phases, or spectra.
@@ -357,7 +380,8 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let of = derivative_name(derivative);
     const WHAT: DatumKey<StatisticsOf> = STATISTICS_SPEC.choice("WHAT");
     let named = args.data_after(WHAT);
-    let table = match args.choice(WHAT).unwrap_or(StatisticsOf::Motion) {
+    let what = args.choice(WHAT).unwrap_or(StatisticsOf::Motion);
+    let table = match what {
         StatisticsOf::Point => {
             let points = read_points(job, &linear, named, args.span)?;
             let (name, list) = point_quantities(job, &linear, &points, args.span)?;
@@ -381,5 +405,13 @@ fn report_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
             body_statistics(format!("Statistics: {of} of {name}"), both, index, how)
         }
     };
-    Ok(dispose(job, table, args.span))
+    let worst = match what {
+        StatisticsOf::Tension => {
+            let listed = table.columns().first().map_or(&[][..], |names| names.cells.as_slice());
+            let fits = |name: &str| listed.contains(&Cell::from(name));
+            worst_in_sea(&job.model, (&linear, &made), extreme, &fits)
+        }
+        StatisticsOf::Motion | StatisticsOf::Point => None,
+    };
+    Ok(dispose_statistics(job, ("STATISTICS", made.rounds), table, worst, args.span))
 }

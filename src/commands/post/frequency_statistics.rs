@@ -7,13 +7,14 @@ use crate::commands::environment::env::{self, A_SEA_OPTION, E_PERIOD, SEA_OPTION
 use crate::commands::environment::probability;
 use crate::commands::menu;
 use crate::commands::post::frequency_posts::{
-    ACCELERATION, DURATION_OPTION, MPM_DURATION_S, VELOCITY, body, derivative, derivative_name, dispose, force,
-    idealisation, point_quantities, results_table, tensions,
+    ACCELERATION, DURATION_OPTION, MPM_DURATION_S, VELOCITY, body, derivative, derivative_name, dispose,
+    dispose_statistics, force, idealisation, point_quantities, results_table, tensions,
 };
 use crate::commands::solve::equilibrium::to_diagnostic;
 use crate::commands::solve::frequency::{
     FrequencyResults, PlacedPoint, heaving, last_points, no_motions, open_results, seas,
 };
+use crate::commands::solve::summary::worst_in_sea;
 use crate::commands::{Call, Command, Effect, Job};
 use nalgebra::Vector3;
 use std::f64::consts::TAU;
@@ -213,7 +214,7 @@ fn point_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         &list,
         StatisticsRequest { derivative, extreme },
     );
-    Ok(dispose(job, made, args.span))
+    Ok(dispose_statistics(job, ("ST_POINT", response.rounds), made, None, args.span))
 }
 
 fn force_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -226,7 +227,9 @@ fn force_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let how = StatisticsRequest { derivative: Derivative::Place, extreme };
     let mut made = statistics(title, SolvedResponse { linear: &linear, response: &response }, &list, how);
     add_model_column(&mut made, |name| idealisation(&job.model, name));
-    Ok(dispose(job, made, args.span))
+    let fits = |name: &str| list.iter().any(|quantity| quantity.name == name);
+    let worst = worst_in_sea(&job.model, (&linear, &response), extreme, &fits);
+    Ok(dispose_statistics(job, ("ST_CFORCE", response.rounds), made, worst, args.span))
 }
 
 /// The force and moment of the cargo of a record, and what its table is called.
@@ -269,5 +272,5 @@ fn cargo_statistics(job: &mut Job, call: &Call) -> Outcome<Effect> {
         &made,
         extreme,
     );
-    Ok(dispose(job, table, args.span))
+    Ok(dispose_statistics(job, ("ST_FCARGO", response.rounds), table, None, args.span))
 }

@@ -303,7 +303,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let both = (&linear, &made);
     let summary = SolveSummary::new(format!("SRESPONSE: motions in a sea of {}", count(made.waves.len(), "frequency")))
         .line("Residual", format!("damping and velocities agree after {}", count(made.rounds, "round")))
-        .worst(worst_in_sea(&model, both, kind), job.units)
+        .worst(worst_in_sea(&model, both, kind, &|_| true), job.units)
         .line("Excursion", largest_in_sea(both, kind, job.units));
     say(
         job,

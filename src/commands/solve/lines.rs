@@ -44,8 +44,8 @@ static LINES_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("LINES", "solves the single lines of a CSV file")
 };
 
-/// The columns added.
-const ADDED: [&str; 8] =
+/// The columns added to those of the input.
+pub const ADDED: [&str; 8] =
     ["fairlead_H_N", "fairlead_V_N", "anchor_H_N", "anchor_V_N", "grounded_length_m", "regime", "residual", "error"];
 
 /// Refused rows that are reported one by one.

@@ -59,7 +59,7 @@ impl WorstLine {
 }
 
 /// A value with its unit.
-fn number(value: f64, dim: Dim, units: UnitSystem) -> String {
+pub(crate) fn number(value: f64, dim: Dim, units: UnitSystem) -> String {
     let text = format::report(&Cell::Number(value), dim, Digits::Usual, units);
     format!("{text} {}", dim.label(units)).trim_end().to_string()
 }
@@ -85,6 +85,14 @@ impl SolveSummary {
         self
     }
 
+    /// Adds a line, where there is something to say.
+    pub(crate) fn line_if(self, label: &'static str, text: Option<String>) -> Self {
+        match text {
+            Some(text) => self.line(label, text),
+            None => self,
+        }
+    }
+
     /// Adds the worst line, where there is one.
     pub(crate) fn worst(self, worst: Option<WorstLine>, units: UnitSystem) -> Self {
         match worst {
@@ -94,8 +102,13 @@ impl SolveSummary {
     }
 
     /// Prints it, with the number of warnings that the job is about to report and what to look at next.
-    pub(crate) fn print(mut self, job: &mut Job, next: &str) {
+    pub(crate) fn print(self, job: &mut Job, next: &str) {
         let warnings = job.notices.iter().filter(|notice| notice.severity == Severity::Warning).count();
+        self.print_with(job, warnings, next);
+    }
+
+    /// Prints it, with a number of warnings that follow and what to look at next.
+    pub(crate) fn print_with(mut self, job: &mut Job, warnings: usize, next: &str) {
         let said = if warnings == 0 { "none".to_string() } else { format!("{warnings}, printed below") };
         self.lines.truncate(MAX_LINES - 3);
         self = self.line("Warnings", said).line("Next", next);
@@ -231,13 +244,14 @@ pub(crate) fn largest_operators(linear: &LinearSystem, made: &Operators, units: 
     })
 }
 
-/// The worst line of a response in a sea: mean tension and extreme over the break at the first end.
+/// The worst line of a response in a sea, of those whose names fit: mean tension and extreme over the break at the first end.
 pub(crate) fn worst_in_sea(
     model: &Model,
     (linear, response): (&LinearSystem, &FrequencyResponse),
     extreme: ExtremeKind,
+    fits: &dyn Fn(&str) -> bool,
 ) -> Option<WorstLine> {
-    let names: Vec<String> = linear.connectors().map(str::to_string).collect();
+    let names: Vec<String> = linear.connectors().filter(|name| fits(name)).map(str::to_string).collect();
     let line = |name: &String| {
         // a connector that cannot be evaluated is reported where its force is asked for
         let (_, along) = LinearQuantity::tension(linear, name).ok().flatten()?;
@@ -269,6 +283,27 @@ pub(crate) fn largest_in_sea(
         }
     }
     most.map_or("none".into(), |(size, name)| format!("{name}: {} about its mean", number(size, Dim::Length, units)))
+}
+
+/// The summary of a table of statistics in a sea: of each kind of quantity the row with the largest maximum, with its deviation, its mean
+/// and its mean period.
+pub(crate) fn of_statistics(command: &str, table: &Table, solved: &str, units: UnitSystem) -> SolveSummary {
+    const PARTS: [(&str, &str); 3] = [("", "Largest"), ("R ", "Rotation"), ("M ", "Moment")];
+    let title = table.title.strip_prefix("Statistics: ").unwrap_or(&table.title);
+    let mut summary = SolveSummary::new(format!("{command}: {title}")).line("Residual", solved);
+    for (prefix, label) in PARTS {
+        let column = |name: &str| table.get(&format!("{prefix}{name}"));
+        let Some(maximum) = column("Maximum") else { continue };
+        let sizes = maximum.cells.iter().enumerate().filter_map(|(row, cell)| Some((row, cell.number()?)));
+        let moving = sizes.filter(|(_, size)| size.is_finite() && *size > 0.0);
+        let Some((row, _)) = moving.max_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        let name = table.columns().first().map_or(String::new(), |first| cell(first, row, units));
+        let part = |label: &str, name: &str| column(name).map(|column| format!("{label} {}", cell(column, row, units)));
+        let parts = [part("maximum", "Maximum"), part("RMS", "RMS"), part("about a mean of", "Mean"), part("Tz", "Tz")];
+        let text = parts.into_iter().flatten().collect::<Vec<_>>().join(", ");
+        summary = summary.line(label, format!("{name}: {text}"));
+    }
+    summary
 }
 
 /// The cell of a column in a row, as text with its unit.

@@ -16,8 +16,6 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
-use windlass_base::geometry::Place;
-use windlass_base::pose::Six;
 use windlass_base::span::Span;
 use windlass_base::table::Table;
 use windlass_base::units::{Dim, UnitSystem};
@@ -255,7 +253,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
 }
 
 /// A run that begins.
-fn begin_run(job: &Job, args: &Args, settings: RunSettings) -> Outcome<Run> {
+fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<Run> {
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     model.parameters.dividing = args.option_number(&DIVIDING);
@@ -263,7 +261,9 @@ fn begin_run(job: &Job, args: &Args, settings: RunSettings) -> Outcome<Run> {
     let mut began = None;
     if let Some(given) = args.option(&RESET) {
         let time = given.first_number().unwrap_or(0.0);
-        velocities = reset(job.run.as_ref(), &mut model, time)
+        velocities = job
+            .take_state(time)
+            .and_then(|state| state.put(&mut model))
             .ok_or_else(|| Diagnostic::error("there is no run of these bodies to begin from", given.span))?;
         began = Some(format!("as the run before had the bodies at {} s", Dim::Time.from_si(time, job.units)));
     }
@@ -295,7 +295,8 @@ fn open_file(job: &mut Job, call: &Call, made: &mut Run) -> Outcome<Option<RunLo
     let refused = |text: String| Diagnostic::error(text, args.span);
     let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
     keep_records(job, FILE, call);
-    let log = RunLog::begin(file, path, made.fingerprint(), made.history.layout.width);
+    let run = (made.fingerprint(), made.history.layout.width);
+    let log = RunLog::begin((file, path), run, job.states_taken());
     Ok(Some(log.map_err(|e| refused(e.to_string()))?))
 }
 
@@ -360,22 +361,6 @@ fn open_stored(job: &mut Job, args: &Args, settings: RunSettings, kept: StoredRu
     summary.print(job, "PRCPOST: TRAJECTORY, CONFORCE and others over time; &ANIMATE: a film");
     job.say_tables(&tables);
     Ok(Effect::Done)
-}
-
-/// Puts the bodies of a model where those of the last run were at the stored instant nearest to a time; their velocities.
-pub(crate) fn reset(run: Option<&Run>, model: &mut Model, time: f64) -> Option<Vec<(usize, Six)>> {
-    let history = &run?.history;
-    let far = |row: &[f64]| (row.first().copied().unwrap_or(f64::INFINITY) - time).abs();
-    let row = history.rows().min_by(|a, b| far(a).total_cmp(&far(b)))?;
-    let mut velocities = Vec::new();
-    for (body, (_, key)) in history.layout.bodies.iter().enumerate() {
-        let at = history.layout.body(body);
-        let numbers = row.get(at..at + 12)?;
-        let found = model.bodies.get_mut(key)?;
-        found.position = Place { shift: numbers.get(..3)?.try_into().ok()?, turn: numbers.get(3..6)?.try_into().ok()? };
-        velocities.push((model.bodies.get_index_of(key)?, Six::from_column_slice(numbers.get(6..)?)));
-    }
-    Some(velocities)
 }
 
 /// Warns of a scheme that damps dynamic lines too little.

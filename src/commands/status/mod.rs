@@ -38,7 +38,7 @@ use crate::report::plot::Chart;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::values::{Args, Noun};
-use windlass_language::select::{Owner, choose};
+use windlass_language::select::{Owner, choose, list_known};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::EntityKind;
 
@@ -225,7 +225,15 @@ fn asked_kind(args: &Args) -> Outcome<&'static StatusKind> {
                     )
                     .help(*instead));
                 }
-                None => find_kind(choose(word, args.position(WHAT), "kind of &STATUS", kinds())?),
+                None => {
+                    let listed = |mut error: Box<Diagnostic>| {
+                        if error.help.is_empty() && error.label.is_empty() {
+                            error.help.extend(list_known(&kinds().map(|(name, ..)| name).collect::<Vec<_>>()));
+                        }
+                        error
+                    };
+                    find_kind(choose(word, args.position(WHAT), "kind of &STATUS", kinds()).map_err(listed)?)
+                }
             }
         }
         None => &model_tables::SUMMARY,

@@ -277,7 +277,16 @@ fn manual_is_written_below_named_folder_or_refused_with_reason() {
     assert_eq!((code, err.as_str()), (Some(0), ""));
     assert!(out.ends_with("pages below docs\n"), "{out}");
     assert!(std::fs::read_to_string(folder.path().join("docs/moses.md")).unwrap().starts_with("# MOSES scripts\n"));
-    assert!(folder.path().join("docs/reference/classes.md").is_file());
+    let page = folder.path().join("docs/reference/classes.md");
+    let made = std::fs::read_to_string(&page).unwrap();
+    // a page of an earlier version makes way, another file is kept
+    std::fs::write(&page, made.replace("## ROD", "## BAR")).unwrap();
+    std::fs::write(folder.path().join("docs/reference/status.md"), "notes of mine\n").unwrap();
+    assert_eq!(run_in(folder.path(), &["manual", "docs"]).0, Some(0));
+    assert_eq!(std::fs::read_to_string(&page).unwrap(), made);
+    let names = std::fs::read_dir(folder.path().join("docs/reference")).unwrap().flatten();
+    let kept = names.map(|entry| entry.file_name().into_string().unwrap()).filter(|name| !name.ends_with(".md"));
+    assert_eq!(kept.collect::<Vec<_>>(), ["status.md.1"]);
     std::fs::write(folder.path().join("taken"), "").unwrap();
     let (code, _, err) = run_in(folder.path(), &["manual", "taken"]);
     assert_eq!(code, Some(1));

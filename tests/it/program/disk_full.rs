@@ -18,7 +18,7 @@ fn run_on_full_disk_reports_it_and_keeps_its_rows() {
     // every write to this file fails with \"no space left on device\"
     let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
     let mut run = Run::new(&runs::model(CART), runs::settings(100.0, 0.1), vec![]).unwrap();
-    let mut log = RunLog::begin(full, "/dev/full".into(), run.fingerprint(), run.history.layout.width).unwrap();
+    let mut log = RunLog::begin((full, "/dev/full".into()), (run.fingerprint(), run.history.layout.width), []).unwrap();
     let error = run.run(&mut log).unwrap_err();
     let text = format!("{error:?}");
     assert!(text.contains("/dev/full: No space left on device") && text.contains("-RESTART"), "{text}");

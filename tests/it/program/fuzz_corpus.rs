@@ -129,7 +129,7 @@ fn complete_run_file_is_unchanged_by_repair() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("TDOM.run");
     let file = fs::File::options().read(true).write(true).create_new(true).open(&path).unwrap();
-    let mut log = RunLog::begin(file, path.clone(), 7, 3).unwrap();
+    let mut log = RunLog::begin((file, path.clone()), (7, 3), []).unwrap();
     log.row(&[0.0, 1.0, 2.0]).unwrap();
     log.snapshot(&Snapshot { time: 0.5, rows: 1, ..Snapshot::default() }).unwrap();
     let bytes = fs::read(&path).unwrap();

@@ -80,3 +80,50 @@ fn folder_without_run_or_records_or_of_another_version_is_refused() {
     let missing = windlass(folder.path(), &["open", "nowhere.ans"]);
     assert!(text(&missing.stderr).contains("there is no folder of answers"), "{}", text(&missing.stderr));
 }
+
+/// The first line of VIEW that has a time: `row time x`.
+fn place_at(rows: &[String], time: f64) -> f64 {
+    let numbers = |row: &String| -> Vec<f64> { row.split_whitespace().map(|word| word.parse().unwrap()).collect() };
+    rows.iter().map(numbers).find(|row| (row[1] - time).abs() < 1e-9).map(|row| row[2]).unwrap()
+}
+
+#[test]
+fn stored_run_that_began_from_an_earlier_run_opens_with_the_same_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    // a quarter of the period of 3.173 s after release: X is near zero, and the cart moves at its fastest
+    let began = [
+        ("-RESET", "TDOM -RESET 0.8\n"),
+        ("-EVENT", "&INSTATE -EVENT 0.8\nTDOM\n"),
+        ("both", "&INSTATE -EVENT 1.6\nTDOM\nTDOM -RESET 0.8\n"),
+    ];
+    for (name, records) in began {
+        let script = SCRIPT.replace("TDOM\n", &format!("TDOM\n{records}"));
+        fs::write(folder.path().join("job.cif"), script).unwrap();
+        let run = windlass(folder.path(), &["job.cif"]);
+        assert_eq!(run.status.code(), Some(0), "{name}: {}", text(&run.stderr));
+        let records = ["PRCPOST", "TRAJECTORY CART", "VIEW Time X", "END", "END"];
+        let arguments = records.iter().flat_map(|record| ["-c", record]);
+        let arguments: Vec<&str> = ["open", "job.ans"].into_iter().chain(arguments).collect();
+        let opened = windlass(folder.path(), &arguments);
+        assert_eq!(opened.status.code(), Some(0), "{name}: {}{}", text(&opened.stdout), text(&opened.stderr));
+        let (ran, found) = (rows(&text(&run.stdout)), rows(&text(&opened.stdout)));
+        assert_eq!((found.len(), &found), (101, &ran), "{name}");
+        // 0.5 cos(2 pi 0.8 / 3.173) = -0.0067 m; of a run released at rest at 0.5 cos(2 pi 1.6 / 3.173) = -0.4998 m it is 0.0067 m
+        let start = if name == "both" { 0.0067 } else { -0.0067 };
+        assert!((place_at(&found, 0.0) - start).abs() < 0.005, "{name}: {}", found[0]);
+    }
+}
+
+#[test]
+fn stored_run_that_began_from_an_earlier_run_tells_a_state_it_lacks() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("job.cif"), SCRIPT.replace("TDOM\n", "TDOM\nTDOM -RESET 0.8\n")).unwrap();
+    windlass(folder.path(), &["job.cif"]);
+    let records = folder.path().join("job.ans/TDOM.run.cif");
+    let script = fs::read_to_string(&records).unwrap();
+    fs::write(&records, script.replace("-RESET 0.8", "-RESET 0.9")).unwrap();
+    let run = fs::read(folder.path().join("job.ans/TDOM.run")).unwrap();
+    let opened = windlass(folder.path(), &["open", "job.ans", "-c", "&TYPE no"]);
+    assert!(text(&opened.stderr).contains("there is no run of these bodies to begin from"), "{}", text(&opened.stderr));
+    assert_eq!(fs::read(folder.path().join("job.ans/TDOM.run")).unwrap(), run, "the run stays");
+}

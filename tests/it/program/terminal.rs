@@ -139,3 +139,36 @@ fn wind_of_a_unit_word_is_the_same_wind_in_knots() {
         Command::new(env!("CARGO_BIN_EXE_windlass")).args(["-c", "&ENV A -WIND 10 90 FURLONGS"]).output().unwrap();
     assert_eq!(run.status.code(), Some(1), "no unit, and the environment has a name");
 }
+
+#[test]
+fn messages_have_colour_at_a_terminal_unless_no_color_is_set() {
+    let home = tempfile::tempdir().unwrap();
+    fs::write(home.path().join("job.cif"), "&EQUI\n").unwrap();
+    let at_terminal = |variables: &[(&str, &str)]| {
+        let terminal = Terminal::start_sized(home.path(), &["job.cif"], size(60), variables);
+        String::from_utf8(terminal.all_output()).unwrap()
+    };
+    let coloured = at_terminal(&[]);
+    assert!(coloured.contains("\x1b[") && coloured.contains("there is no body"), "{coloured}");
+    let plain = at_terminal(&[("NO_COLOR", "1")]);
+    assert!(!plain.contains('\x1b') && plain.contains("there is no body"), "{plain}");
+    let run = Command::new(env!("CARGO_BIN_EXE_windlass")).arg("job.cif").current_dir(home.path()).output().unwrap();
+    let piped = String::from_utf8(run.stderr).unwrap();
+    assert!(!piped.contains('\x1b') && piped.contains("there is no body"), "{piped}");
+}
+
+#[test]
+fn summaries_of_solves_fit_screens_of_60_100_and_200_columns() {
+    for cols in [60, 100, 200] {
+        let home = tempfile::tempdir().unwrap();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let script = fs::read_to_string(root.join("scripts/rod_results.cif")).unwrap();
+        fs::write(home.path().join("job.cif"), script).unwrap();
+        let terminal = Terminal::start_sized(home.path(), &["job.cif"], size(cols), &[("NO_COLOR", "1")]);
+        let text = String::from_utf8(terminal.all_output()).unwrap().replace('\r', "");
+        let begun = text.lines().skip_while(|line| !line.starts_with("ROD AFT ENVELOPE: "));
+        let summary: Vec<&str> = begun.take_while(|line| !line.trim().is_empty()).collect();
+        assert!(summary.iter().any(|line| line.contains("Layback")), "{text}");
+        assert!(summary.iter().all(|line| line.chars().count() <= usize::from(cols)), "{cols} columns: {summary:#?}");
+    }
+}

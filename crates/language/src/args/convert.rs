@@ -165,7 +165,14 @@ fn convert_value(
         Kind::Choice(choices) => {
             let what = format!("value of {} of {owner}", spec.name);
             let names = choices.iter().map(|c| (*c, Owner::Moses, *c));
-            Content::Word(Arc::from(select::choose(&word.text, span, &what, names)?))
+            let known = |mut error: Box<Diagnostic>| {
+                // the nearest word is named; a short list shows what else there is
+                if error.help.iter().all(|help| !help.starts_with("known: ")) {
+                    error.help.extend(select::list_known(choices));
+                }
+                error
+            };
+            Content::Word(Arc::from(select::choose(&word.text, span, &what, names).map_err(known)?))
         }
         Kind::Name(noun) => {
             noun_fits(spec, noun, word, owner, units)?;

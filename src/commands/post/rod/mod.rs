@@ -13,8 +13,9 @@ use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, print_or_d
 use crate::commands::post::prcpost::{self, asked_behind_transient, last_run, run_and_events, transient_of};
 use crate::commands::post::report::{Report, ReportRegistry, Tables};
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::summary::SolveSummary;
 use crate::commands::{Call, Command, Effect, Job};
-use windlass_base::diagnostic::Outcome;
+use windlass_base::diagnostic::{Outcome, Severity};
 use windlass_base::table::Table;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
@@ -114,17 +115,29 @@ impl RodQuery<'_> {
 
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
-    let tables = tables(job, call)?;
+    let (tables, summary) = make_tables(job, call)?;
+    if let Some(summary) = summary {
+        let warnings = tables.iter().flat_map(|table| &table.notes).filter(|note| note.severity == Severity::Warning);
+        summary.print_with(
+            job,
+            warnings.count(),
+            "ROD NAME AT T: the line at an instant; NODE N: a node over time; CHECK, FATIGUE",
+        );
+    }
     let transient = transient_of(job, args);
     print_or_dispose(job, args, &tables, (transient, args.position(NAME)))
 }
 
-fn tables(job: &Job, call: &Call) -> Tables {
+/// The tables that a record asks for; of ENVELOPE with a summary.
+fn make_tables(job: &Job, call: &Call) -> Outcome<(Vec<Table>, Option<SolveSummary>)> {
     let args = &call.args;
     let run = last_run(job, args.span)?;
     let line = LineResults::find(run, args.word(NAME).unwrap_or_default())
         .map_err(|e| e.diagnostic(args.position(NAME), job.units))?;
     let chosen = args.choice(WHAT).unwrap_or(&envelope::ENVELOPE);
     chosen.check_record(args, args.data_after(WHAT).first(), "numbers")?;
-    (chosen.tables)(&RodQuery { job, call, run, line })
+    let query = RodQuery { job, call, run, line };
+    let tables = (chosen.tables)(&query)?;
+    let summary = if *chosen == envelope::ENVELOPE { Some(envelope::summarise(&query)?) } else { None };
+    Ok((tables, summary))
 }

@@ -20,12 +20,14 @@ pub use envelope::envelope;
 pub use fatigue::fatigue_table as fatigue_along;
 pub use modes::natural_modes;
 pub use shape::{LinePosition, histories, shape};
+pub use summary::{LineExtreme, RunSummary};
 pub use supports::supports;
 pub use touchdown::touchdown;
 
 use super::super::system::SolveError;
 use super::super::time::{AlongColumns, NodeQuantity, NodeRow, Run};
 use super::RunEvent;
+use std::f64::consts::PI;
 use windlass_base::message::Message;
 use windlass_base::table::Digits;
 use windlass_model::{AssemblyKind, ClassError, FatigueSegment, Model, WallMaterial, line_name};
@@ -41,6 +43,8 @@ pub(crate) struct ResultSection {
     pub segment: FatigueSegment,
     /// Its tube, where it has a wall.
     pub tube: Option<CheckedTube>,
+    /// Bending stiffness (N m2): that of `-EI`, else of the section.
+    pub bending_stiffness: f64,
 }
 
 impl ResultSection {
@@ -74,10 +78,14 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<ResultSection> {
     });
     let class = connector.or(pipe).and_then(|(class, few)| Some((model.classes.get(&Model::key(class))?, few)));
     let Some((class, few)) = class else { return Vec::new() };
-    let bends = class.bending_segments();
+    let bends = class.given_bending_stiffnesses();
     let made = class.fatigue_segments().into_iter().zip(class.wall_materials()).zip(bends);
-    let of = |((segment, material), bends): ((FatigueSegment, WallMaterial), bool)| {
+    let of = |((segment, material), given): ((FatigueSegment, WallMaterial), Option<f64>)| {
         // a bar that does not bend is a chain or rope
+        let bends = given != Some(0.0);
+        let inside = segment.thickness.map_or(0.0, |wall| (segment.od - 2.0 * wall).max(0.0));
+        let second_moment = PI / 64.0 * (segment.od.powi(4) - inside.powi(4));
+        let bending_stiffness = given.unwrap_or(material.modulus * second_moment);
         let tube = segment.thickness.filter(|wall| bends || 2.0 * wall < segment.od).map(|wall| CheckedTube {
             diameter: segment.od,
             wall,
@@ -86,7 +94,7 @@ pub(crate) fn sections(model: &Model, name: &str) -> Vec<ResultSection> {
             modulus: material.modulus,
             poisson: material.poisson,
         });
-        ResultSection { segment, tube }
+        ResultSection { segment, tube, bending_stiffness }
     };
     made.map(of).take(few).collect()
 }
@@ -228,6 +236,7 @@ mod tests {
                 length,
             },
             tube: None,
+            bending_stiffness: 0.0,
         };
         let all = [100.0, 50.0, 20.0].map(segment);
         // the last node, one in the last, where two meet, in the first, beyond what the class says of it

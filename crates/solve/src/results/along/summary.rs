@@ -1,6 +1,9 @@
 //! What a table of many nodes comes to: where a line is loaded most, where it touches down, how steep it is.
 
-use super::ResultSection;
+use super::{LineResults, ResultSection};
+use crate::results::RunEvent;
+use crate::time::{NodeQuantity, NodeRow};
+use nalgebra::Vector3;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::LineNode;
@@ -146,6 +149,123 @@ impl LineSummary {
             table = table.fact("Unstretched on Bottom", self.grounded, Dim::Length);
         }
         table
+    }
+}
+
+/// The largest or least value of a quantity along a line in a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineExtreme {
+    /// Its value, SI.
+    pub value: f64,
+    /// Unstretched distance from the first end (m).
+    pub arc: f64,
+    /// When (s).
+    pub time: f64,
+}
+
+/// What a dynamic line comes to over the instants of a run: the largest of what [`LineSummary`] has of each.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunSummary {
+    /// Largest effective tension (N).
+    pub largest_tension: Option<LineExtreme>,
+    /// Least effective tension (N).
+    pub least_tension: Option<LineExtreme>,
+    /// Largest inclination of what does not lie on the bottom (rad, below the horizontal seen from the higher end).
+    pub departure: Option<LineExtreme>,
+    /// Largest bending moment where the line curves downward (N m).
+    pub overbend: Option<LineExtreme>,
+    /// Largest bending moment where the line curves upward (N m).
+    pub sagbend: Option<LineExtreme>,
+    /// Largest bending strain at the outer fibre: moment over bending stiffness, times half of the diameter.
+    pub strain: Option<LineExtreme>,
+    /// Largest share of the yield stress of a tube, or of the break of another section.
+    pub utilisation: Option<LineExtreme>,
+    /// Least and largest unstretched distance of the touchdown point from the first end (m).
+    pub touchdown: Option<[f64; 2]>,
+    /// Least and largest horizontal distance from the higher end to the touchdown point (m).
+    pub layback: Option<[f64; 2]>,
+    /// Instants at which the line was looked at.
+    pub instants: usize,
+    /// The first and the last of these (s).
+    pub window: Option<[f64; 2]>,
+}
+
+/// Keeps a value that is larger, by `sign` 1, or less, by -1, than the one kept.
+fn keep_extreme(best: &mut Option<LineExtreme>, (value, arc): AtArc, time: f64, sign: f64) {
+    if value.is_finite() && best.is_none_or(|most| sign * value > sign * most.value) {
+        *best = Some(LineExtreme { value, arc, time });
+    }
+}
+
+fn widen(range: &mut Option<[f64; 2]>, value: f64) {
+    let [least, most] = range.unwrap_or([value; 2]);
+    *range = Some([least.min(value), most.max(value)]);
+}
+
+impl RunSummary {
+    /// The summary of a line over some events; of a run without stored instants what its envelope has, which is the tension alone.
+    pub fn new(line: &LineResults, events: &[RunEvent]) -> RunSummary {
+        let mut made = RunSummary::default();
+        let mut row = Vec::new();
+        for event in events {
+            line.row(event, &mut row);
+            made.take(line, &row);
+        }
+        let kept = line.run.envelopes.get(line.link).filter(|_| line.run.history.is_empty());
+        if let Some(kept) = kept {
+            for (_, place) in line.numbered_nodes() {
+                let of = |quantity| kept.extremes(place, quantity);
+                let Some((arc, tension)) = of(NodeQuantity::Arc).zip(of(NodeQuantity::Effective)) else { continue };
+                let (least, most) = (tension.least, tension.most);
+                keep_extreme(&mut made.largest_tension, (most.value, arc.mean), most.time, 1.0);
+                keep_extreme(&mut made.least_tension, (least.value, arc.mean), least.time, -1.0);
+            }
+        }
+        made
+    }
+
+    fn take(&mut self, line: &LineResults, row: &[f64]) {
+        let time = row.first().copied().unwrap_or(f64::NAN);
+        let rows: Vec<NodeRow> = line.columns.nodes(row).map(|(_, node)| node).collect();
+        if rows.is_empty() {
+            return;
+        }
+        self.instants += 1;
+        widen(&mut self.window, time);
+        let node = |row: &NodeRow| LineNode {
+            arc: row.arc,
+            position: Vector3::from(row.position),
+            effective: row.effective,
+            clearance: row.clearance,
+            moment: row.bent.map_or(0.0, |bent| bent.moment()),
+            ..LineNode::default()
+        };
+        let nodes: Vec<LineNode> = rows.iter().map(node).collect();
+        // curvatures are not stored: strains come of the moments below
+        let now = LineSummary::new(&nodes, &[], line.columns.bends);
+        for (best, found, sign) in [
+            (&mut self.largest_tension, now.largest_tension, 1.0),
+            (&mut self.least_tension, now.least_tension, -1.0),
+            (&mut self.departure, now.departure, 1.0),
+            (&mut self.overbend, now.overbend, 1.0),
+            (&mut self.sagbend, now.sagbend, 1.0),
+        ] {
+            if let Some(found) = found {
+                keep_extreme(best, found, time, sign);
+            }
+        }
+        now.touchdown.iter().for_each(|arc| widen(&mut self.touchdown, *arc));
+        now.layback.iter().for_each(|distance| widen(&mut self.layback, *distance));
+        for node in &rows {
+            if let Some(used) = line.node_utilisation(node, row) {
+                keep_extreme(&mut self.utilisation, (used, node.arc), time, 1.0);
+            }
+            let Some(moment) = node.bent.map(|bent| bent.moment()) else { continue };
+            for (.., section) in line.sides(node, row) {
+                let strain = 0.5 * section.segment.od * moment / section.bending_stiffness;
+                keep_extreme(&mut self.strain, (strain, node.arc), time, 1.0);
+            }
+        }
     }
 }
 

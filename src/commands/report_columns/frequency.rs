@@ -1,0 +1,97 @@
+//! Reports of the frequency domain.
+
+use super::*;
+
+const AMPLITUDE: &[Dim] = &[
+    Dim::Length,
+    Dim::Angle,
+    Dim::Velocity,
+    Dim::AngularVelocity,
+    Dim::Acceleration,
+    Dim::AngularAcceleration,
+    Dim::Force,
+    Dim::Moment,
+];
+const DENSITY: &[Dim] = &[
+    Dim::SpectralDensity,
+    Dim::AngleDensity,
+    derived(0, 2, -1),
+    derived(0, 2, -3),
+    derived(0, 0, -1),
+    derived(0, 0, -3),
+    derived(2, 0, 1),
+    derived(2, 2, 1),
+];
+
+pub(super) static REPORTS: &[ReportColumns] = &[
+    ReportColumns {
+        printed_by: "MOTION, FR_POINT, CONFORCE, FR_CFORCE, FR_FCARGO, EXFORCE of FREQ_RESPONSE",
+        titles: &[
+            "Motion of @",
+            "Velocity of @",
+            "Acceleration of @",
+            "Forces of Connectors",
+            "Force of a Cargo at @",
+            "Exciting Forces",
+        ],
+        columns: &[
+            column("Encounter", TIME, "period at which a body under way meets the waves"),
+            column("@: @ Amp", AMPLITUDE, "amplitude in a wave with an amplitude of one length"),
+            column("@: @ Phase", ANGLE, "lag behind the crest at the global origin"),
+            column("Density: Wave", &[Dim::SpectralDensity], "spectral density of the sea"),
+            column("Density: @", DENSITY, "spectral density of the response"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "STATISTICS, ST_POINT, ST_CFORCE, ST_FCARGO of FREQ_RESPONSE",
+        titles: &["Statistics: @"],
+        columns: &[
+            column("Result", NONE, "what the row is of"),
+            column("Axis", NONE, "the axis, along it and about it"),
+            column("@Mean", AMPLITUDE, "mean"),
+            column("@RMS Wave", AMPLITUDE, "standard deviation at the frequencies of the waves"),
+            column("@RMS Slow", AMPLITUDE, "standard deviation at those of slow drift"),
+            column("@RMS", AMPLITUDE, "standard deviation of both"),
+            column("@Signif.", AMPLITUDE, "significant amplitude: twice the standard deviation"),
+            column(
+                "@Maximum",
+                AMPLITUDE,
+                "amplitude about the mean: the most probable of the duration, or that of -PROBABILITY",
+            ),
+            column("@Tz", TIME, "mean period between zero up-crossings"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "MATRICES -FILE of FREQ_RESPONSE",
+        titles: &["Matrices of the Equations of Motion"],
+        columns: &[
+            column(
+                "M@",
+                &[derived(1, -1, 2), derived(1, 0, 2), derived(1, 1, 2)],
+                "element of the mass matrix with added mass, by row and column",
+            ),
+            column("B@", &[derived(1, -1, 1), derived(1, 0, 1), derived(1, 1, 1)], "element of the damping matrix"),
+            column(
+                "K@",
+                &[Dim::ForcePerLength, Dim::Force, derived(1, -1, 0), derived(1, 0, 0), derived(1, 1, 0)],
+                "element of the stiffness matrix",
+            ),
+        ],
+    },
+    ReportColumns {
+        printed_by: "V_MATRICES of HYDRODYNAMICS",
+        titles: &["Added Mass and Damping of @"],
+        columns: &[
+            column(
+                "Added Mass: A @",
+                &[derived(1, 0, 0), derived(1, 1, 0), derived(1, 2, 0)],
+                "added mass times gravity: force along the first axis by an acceleration along the second",
+            ),
+            column(
+                "Damping: B @",
+                &[derived(1, -1, 1), derived(1, 0, 1), derived(1, 1, 1)],
+                "radiation damping: force along the first axis by a velocity along the second",
+            ),
+        ],
+    },
+];

@@ -1,0 +1,161 @@
+//! Reports of runs in the time domain.
+
+use super::*;
+
+pub(super) static REPORTS: &[ReportColumns] = &[
+    ReportColumns {
+        printed_by: "TDOM",
+        titles: &["Tensions at First Ends", "Places", "Angles"],
+        columns: &[
+            column("Result", NONE, "the connector; or the body and its degree of freedom"),
+            column("Mean", &[Dim::Force, Dim::Length, Dim::Angle], "mean behind the transient"),
+            column("Std. Dev.", &[Dim::Force, Dim::Length, Dim::Angle], "standard deviation about the mean"),
+            column("Minimum: Least", &[Dim::Force, Dim::Length, Dim::Angle], "least value"),
+            column("Minimum: At", TIME, "when"),
+            column("Maximum: Most", &[Dim::Force, Dim::Length, Dim::Angle], "largest value"),
+            column("Maximum: At@", TIME, "when"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "TDOM -CHECK",
+        titles: &["@ with Half the Step"],
+        columns: &[
+            column("Result", NONE, "the connector; or the body and its degree of freedom"),
+            column("Maximum: Full Step", &[Dim::Force, Dim::Length, Dim::Angle], "largest value of the run"),
+            column("Maximum: Half Step", &[Dim::Force, Dim::Length, Dim::Angle], "the same with half the step"),
+            column("Std. Dev.: Full Step@", &[Dim::Force, Dim::Length, Dim::Angle], "standard deviation of the run"),
+            column("Std. Dev.: Half Step@", &[Dim::Force, Dim::Length, Dim::Angle], "the same with half the step"),
+            column(
+                "Largest Difference: Size",
+                &[Dim::Force, Dim::Length, Dim::Angle],
+                "largest difference between the two at one time",
+            ),
+            column("Largest Difference: At", TIME, "when"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "TDOM, &STATUS RUN",
+        titles: &["Time Domain"],
+        columns: &[column("Action", NONE, "the &ACTION that came due then")],
+    },
+    ReportColumns {
+        printed_by: "TDOM of quasi-static lines (-SCREEN)",
+        titles: &["Screening of Quasi-Static Lines"],
+        columns: &[
+            column("Window: From", TIME, "begin of the part of the run that is replayed"),
+            column("Window: To", TIME, "its end"),
+            column("Steps", NONE, "steps of the replay"),
+            column("Largest Tension: Quasi-Static", FORCE, "largest tension of the run's quasi-static line"),
+            column("Largest Tension: Dynamic", FORCE, "largest tension of the same line replayed as a dynamic line"),
+            column("Largest Tension: At", TIME, "when"),
+            column("Elements", NONE, "elements of the dynamic line"),
+            column("Ratio", NONE, "dynamic over quasi-static"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "TDOM -BALANCE",
+        titles: &["Energy and Momentum Balance of Lines"],
+        columns: &[
+            column("Work Done by: 1st End", ENERGY, "work done on the line at its first end"),
+            column("Work Done by: 2nd End", ENERGY, "work done on the line at its second end"),
+            column("Work Done by: Water", ENERGY, "work done by water and air"),
+            column("Work Done by: Bottom", ENERGY, "work done by the seabed: friction and damping"),
+            column("Work Done by: Damping", ENERGY, "work done by the damping of the line"),
+            column("Energy Now: Motion", ENERGY, "kinetic energy"),
+            column("Energy Now: Stretch", ENERGY, "energy of stretch and bending"),
+            column("Energy Now: Height", ENERGY, "potential energy of the weight in water"),
+            column("Energy Now: Bottom", ENERGY, "energy of the seabed pressed in"),
+            column(
+                "Imbalance: Energy",
+                ENERGY,
+                "energy gained beyond the work done; negative: what the scheme has damped",
+            ),
+            column("Imbalance: of Most", NONE, "the same over the energy turned over"),
+            column(
+                "Imbalance: Momentum",
+                &[derived(1, 0, 1)],
+                "momentum gained beyond the impulse of all outer forces, its size",
+            ),
+        ],
+    },
+    ReportColumns {
+        printed_by: "TRAJECTORY, POINTS, REL_MOTION of PRCPOST",
+        titles: &["Trajectory", "Points of Interest", "Relative Motions"],
+        columns: &[
+            column("@Location: Mag.", LENGTH, "distance from the origin"),
+            column("@Location: @", &[Dim::Length, Dim::Angle], "where it is; roll, pitch and yaw of a body; global"),
+            column("@Displacement: D Mag.", LENGTH, "distance from where it began"),
+            column(
+                "@Displacement: @",
+                &[Dim::Length, Dim::Angle],
+                "how far it has moved from where it began, along or about a global axis",
+            ),
+            column("@Motion: D Mag.", LENGTH, "distance from where it was at rest"),
+            column("@Motion: @", LENGTH, "how far it has moved from where it was at rest, along a global axis"),
+            column("@Velocity: V Mag.", VELOCITY, "speed"),
+            column("@Velocity: VR@", TURN_VELOCITY, "rate of rotation about a global axis"),
+            column("@Velocity: V@", VELOCITY, "velocity along a global axis"),
+            column("@Acceleration: A Mag.", ACCELERATION, "size of the acceleration"),
+            column("@Acceleration: AR@", TURN_ACCELERATION, "angular acceleration about a global axis"),
+            column("@Acceleration: A@", ACCELERATION, "acceleration along a global axis, without gravity"),
+            column("@Waves: W. Elv", LENGTH, "wave elevation at the point, from mean water level"),
+            column("@Waves: Clearance", LENGTH, "height of the point above the wave"),
+            column("@Bottom: Clearance", LENGTH, "height of the lowest point of the body above the seabed"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "P_MIN_DISTANCE of PRCPOST",
+        titles: &["Least Distance"],
+        columns: &[
+            column("Distance", LENGTH, "distance between the two points"),
+            column("Rate", VELOCITY, "rate at which it grows"),
+            column("Apart: @", LENGTH, "second point less the first, along a global axis"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "SENSOR of PRCPOST",
+        titles: &["Sensors"],
+        columns: &[
+            column(
+                "@: Value",
+                &[Dim::Length, Dim::Force, Dim::Angle, Dim::Velocity, Dim::Acceleration, Dim::None],
+                "what the sensor measures",
+            ),
+            column("@: Alarm", NONE, "1 while it is outside of its limits, else 0"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "TANK_BAL, TANK_FLD, HOLE_FLOODING of PRCPOST",
+        titles: &["Contents of Compartments", "Holes of Compartments"],
+        columns: &[
+            column("@Contents: % Full", NONE, "volume of the contents over the capacity, in per cent"),
+            column("@Contents: Amount", FORCE, "weight of the contents"),
+            column("@Contents: Sounding", LENGTH, "height of the level above the lowest point"),
+            column("@Contents: Ullage", LENGTH, "height of the highest point above the level"),
+            column("@Head: Internal", LENGTH, "height of the level inside above the hole"),
+            column("@Head: External", LENGTH, "height of the water outside above the hole"),
+            column("@Head: Diff.", LENGTH, "external less internal"),
+            column("@Head: Pressure", LENGTH, "pressure at the lowest point, as a height of sea water"),
+            column(
+                "@Head: Max Diff.",
+                LENGTH,
+                "largest difference across the walls with the sea at its mean level, as a height of sea water",
+            ),
+            column("@Hole: Above Water", LENGTH, "height of the hole above the wave; negative: below it"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "&STATUS BODIES of prescribed bodies",
+        titles: &["Prescribed Motions"],
+        columns: &[
+            column("DOF", NONE, "degree of freedom that is prescribed"),
+            column("By", NONE, "how: harmonic, or rows of a table"),
+            column("From", TIME, "begin of the table or motion"),
+            column("To", TIME, "its end"),
+            column("Rows", NONE, "rows of the table"),
+            column("Amplitude: @", &[Dim::Length, Dim::Angle], "amplitude of a harmonic motion"),
+            column("Period", TIME, "its period"),
+            column("Phase", ANGLE, "its phase"),
+        ],
+    },
+];
