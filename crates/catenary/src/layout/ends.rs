@@ -19,9 +19,9 @@ const JUMP_SHARE: f64 = 1e-9;
 const MAX_SEARCH_STEPS: usize = 200;
 
 impl LineLayout<'_> {
-    fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top {
+    fn top(&self, h: Var, x: f64, z: f64, near: Option<f64>) -> Top<'static> {
         let (u, z) = (Var::parameter(x, DISTANCE_PARAMETER, 1.0), Var::parameter(z, HEIGHT_PARAMETER, 1.0));
-        Top { h, u, z, near, heap: Var::constant(0.0), hollow: None, hold: None }
+        Top { h, u, z, near, heap: Var::constant(0.0), hollow: None, holds: &[], should_continue: true, sunk: &[] }
     }
 
     /// The least force stands for none: what hangs under it is upright but for this (m).
@@ -44,7 +44,23 @@ impl LineLayout<'_> {
 /// A fairlead below a bottom that carries the line, a line without an equilibrium there, or a search that ends beside the
 /// anchor.
 pub fn between_ends(line: &Line, x: f64, z: f64, last: Option<&LineState>) -> Result<LineState, LineError> {
-    let mut layout = LineLayout::new(line, x, z);
+    let found = seek_between_ends(LineLayout::new(line, x, z), [x, z], last);
+    match found {
+        // the end may jump where one of several places was taken from which a span can leave, not the last of them
+        Err(LineError::NotConverged { .. } | LineError::Unproven { .. }) => {
+            let layout = LineLayout { thorough: true, ..LineLayout::new(line, x, z) };
+            seek_between_ends(layout, [x, z], None).or(found)
+        }
+        found => found,
+    }
+}
+
+fn seek_between_ends(
+    mut layout: LineLayout,
+    [x, z]: [f64; 2],
+    last: Option<&LineState>,
+) -> Result<LineState, LineError> {
+    let line = layout.line;
     if let Some(by) = layout.fairlead_penetration(x, z) {
         return Err(LineError::BelowBottom(by));
     }

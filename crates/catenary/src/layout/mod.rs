@@ -132,11 +132,14 @@ pub(super) struct LaidLine {
     pub heap: Option<(Heap, f64)>,
     /// Whether it has slid down to the anchor: `short` is that of the place without tension.
     pub slid: bool,
-    /// The weight (N) that lies before each span that leaves the bottom, and the gap of the span whose place is held.
+    /// The weight (N) that lies before each span that leaves the bottom.
     pub left_at: Vec<Option<f64>>,
     /// The piece of the line in which each span lands.
     pub lands_in: Vec<usize>,
-    pub gap: Option<Var>,
+    /// Joints that are past the step of their lift.
+    pub sunk: Vec<bool>,
+    /// The gaps (m) at which the spans whose places are held land, each with its span.
+    pub gaps: Vec<(usize, f64)>,
     /// Largest gap left at a landing (m).
     pub left: f64,
     pub iterations: usize,
@@ -179,6 +182,8 @@ pub(super) struct LineLayout<'a> {
     bottom: &'a SeabedProfile,
     friction: f64,
     least: f64,
+    /// Whether the last place from which a span can leave is sought among many, where several may be.
+    thorough: bool,
     /// Unstretched length (m), all weights (N), and the rounding of a place (m).
     length: f64,
     weight: f64,
@@ -187,7 +192,7 @@ pub(super) struct LineLayout<'a> {
 
 /// The fairlead and the force there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Top {
+pub(super) struct Top<'h> {
     pub h: Var,
     pub u: Var,
     pub z: Var,
@@ -197,7 +202,11 @@ pub(super) struct Top {
     pub heap: Var,
     /// A hollow of the bottom (distance from the anchor) in which a length lies in a heap.
     pub hollow: Option<(f64, Var)>,
-    pub hold: Option<FixedDeparture>,
+    /// Spans that leave the bottom at given places, in their order, and whether the line is laid on behind the last of them.
+    pub holds: &'h [FixedDeparture],
+    pub should_continue: bool,
+    /// Joints that are past the step of their lift to begin with; none where it is empty.
+    pub sunk: &'h [bool],
 }
 
 /// A span that leaves the bottom at a given place: what it lands on is at a gap from it.
@@ -208,8 +217,6 @@ pub(super) struct FixedDeparture {
     pub weight: f64,
     /// The piece of the line with which the span before it lands, whatever it would reach beyond; any where none is given.
     pub lands_in: Option<usize>,
-    /// Whether the line is laid on behind it.
-    pub should_continue: bool,
 }
 
 impl<'a> LineLayout<'a> {
@@ -225,6 +232,7 @@ impl<'a> LineLayout<'a> {
             bottom: &line.profile,
             friction: line.floor.map_or(0.0, |f| f.friction),
             least: chain.least,
+            thorough: false,
             length,
             weight,
             fine: 2.0 * f64::EPSILON * (length + x.abs() + (z - line.anchor).abs()),
@@ -276,11 +284,12 @@ impl<'a> LineLayout<'a> {
     /// # Errors
     /// A span that does not land, or joints that go on sinking in turn.
     pub fn lay(&self, top: &Top) -> Result<LaidLine, LineError> {
-        let mut sunk = vec![false; self.pulls.len()];
+        let mut sunk: Vec<bool> =
+            (0..self.pulls.len()).map(|joint| top.sunk.get(joint).is_some_and(|past| *past)).collect();
         // a joint that sinks may take one before it along
         for _ in 0..=self.pulls.len() {
             if let Some(laid) = self.lay_with(top, &mut sunk)? {
-                return Ok(laid);
+                return Ok(LaidLine { sunk, ..laid });
             }
         }
         Err(LineError::NotConverged { force: top.h.value, residual: f64::NAN, iterations: self.pulls.len() })
@@ -301,9 +310,8 @@ impl<'a> LineLayout<'a> {
         }
         // every span begins further toward the anchor or sinks a buoy
         for _ in 0..=8 * (self.elements.len() + self.bottom.faces() + 2) {
-            let hold = top.hold.filter(|h| h.span == laid.left_at.len());
             let (departure, landing) = self.next_span(&origin, top, sunk, &mut laid)?;
-            if laid.gap.is_some() && hold.is_some_and(|h| !h.should_continue) {
+            if !top.should_continue && laid.gaps.len() == top.holds.len() {
                 return Ok(Some(laid));
             }
             if let TouchKind::Held(joint) = landing.kind {

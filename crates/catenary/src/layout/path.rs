@@ -107,6 +107,14 @@ impl LaidPath {
         }
     }
 
+    /// Places on it, from its end to its beginning, as the weights (N) that lie before them: the ends of its pieces, and so many parts
+    /// of each.
+    pub fn places(&self, parts: usize) -> impl Iterator<Item = f64> {
+        let part_of =
+            move |piece: &PathPiece, part: usize| piece.before + piece.weight * (1.0 - part as f64 / parts as f64);
+        self.pieces.iter().rev().flat_map(move |piece| (0..parts).map(move |part| part_of(piece, part))).chain([0.0])
+    }
+
     fn push(&mut self, weight: f64, what: PathPieceKind) {
         let weight = weight.max(0.0);
         self.pieces.push(PathPiece { before: self.weight, weight, spare: self.spare, what });

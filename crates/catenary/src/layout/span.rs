@@ -1,6 +1,6 @@
 //! A span: the free curve that just touches what it must not pass.
 
-use super::path::Spare;
+use super::path::{LaidPath, Spare};
 use super::{JointAt, LaidLine, LineLayout, LinePoint, PieceStretch, SpanStart, SupportMode, Top};
 use crate::dual::{SPAN_UNKNOWN, Var};
 use crate::element::{LinePiece, strain, stretch};
@@ -60,6 +60,8 @@ pub struct Departure {
 
 /// Steps after which a search gives up.
 const MAX_SEARCH_STEPS: usize = 200;
+/// Parts of a piece that lies, between which a span is tried in search of the last one that can leave.
+const PLACES_IN_PIECE: usize = 16;
 /// Steps after which every other one halves the bracket.
 const NEWTON_STEPS: usize = 25;
 
@@ -94,11 +96,14 @@ impl LineLayout<'_> {
         laid: &mut LaidLine,
     ) -> Result<(Departure, TouchCandidate), LineError> {
         let span = laid.left_at.len();
-        let hold = top.hold.filter(|h| h.span == span);
-        if let (Some(hold), SpanStart::Ground(_)) = (hold, origin) {
+        let hold = |span: usize| top.holds.iter().find(|h| h.span == span);
+        let lands_in = hold(span + 1).and_then(|h| h.lands_in);
+        if let (Some(hold), SpanStart::Ground(_)) = (hold(span), origin) {
             let departure = self.depart(origin, top, hold.weight);
-            let landing = self.lowest(&departure, sunk);
-            laid.gap = Some(landing.gap);
+            let landing = self.least_of(&departure, sunk, lands_in, |c| c.gap.value);
+            // a buoy that sinks has the span found once more
+            laid.gaps.retain(|(held, _)| *held != span);
+            laid.gaps.push((span, landing.gap.value));
             return Ok(self.land_span(origin, hold.weight, departure, landing, laid));
         }
         let (bracket, mut at) = match origin {
@@ -107,11 +112,11 @@ impl LineLayout<'_> {
                 (NewtonBracket::OPEN, top.near.unwrap_or(guess))
             }
             SpanStart::Held { low, high, .. } => (NewtonBracket::new(*low, *high), 0.5 * (low + high)),
+            SpanStart::Ground(path) if self.thorough => self.last_departures(origin, top, path, (sunk, lands_in)),
             SpanStart::Ground(path) => (NewtonBracket::new(0.0, path.weight), path.weight),
         };
         let mut search = NewtonSearch::new(bracket, self.weight + top.h.value);
         let mut convergence = Convergence::new(self.fine);
-        let lands_in = top.hold.filter(|h| h.span == span + 1).and_then(|h| h.lands_in);
         let mut best: Option<(f64, Departure, TouchCandidate)> = None;
         let mut steps = 0;
         while steps < MAX_SEARCH_STEPS {
@@ -145,6 +150,29 @@ impl LineLayout<'_> {
         Ok(self.land_span(origin, unknown, departure, landing, laid))
     }
 
+    /// The weights (N) between which the last place is from which a span can leave a path, and one to begin with: what lies is gone
+    /// along from its end, by pieces and parts of them, to where the curve no longer passes below what it must not pass.
+    fn last_departures(
+        &self,
+        origin: &SpanStart,
+        top: &Top,
+        path: &LaidPath,
+        (sunk, lands_in): (&[bool], Option<usize>),
+    ) -> (NewtonBracket, f64) {
+        let passes_below = |weight: f64| {
+            let departure = self.depart(origin, top, weight);
+            self.least_of(&departure, sunk, lands_in, TouchCandidate::room).gap.value < 0.0
+        };
+        let mut low = path.weight;
+        for weight in path.places(PLACES_IN_PIECE) {
+            if !passes_below(weight) {
+                return (NewtonBracket::new(weight, low), low);
+            }
+            low = weight;
+        }
+        (NewtonBracket::new(0.0, low), low)
+    }
+
     /// The span with the numbers that keep it in touch with what it lands on.
     fn land_span(
         &self,
@@ -166,11 +194,6 @@ impl LineLayout<'_> {
     /// What a curve touches first when its unknown grows.
     pub fn limit(&self, from: &Departure, sunk: &[bool]) -> TouchCandidate {
         self.least_of(from, sunk, None, TouchCandidate::room)
-    }
-
-    /// What a curve is the least above, or the furthest below.
-    fn lowest(&self, from: &Departure, sunk: &[bool]) -> TouchCandidate {
-        self.least_of(from, sunk, None, |c| c.gap.value)
     }
 
     /// The least candidate, of those up to a landing in a piece when that is given.
