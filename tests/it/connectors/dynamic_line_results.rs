@@ -1,6 +1,6 @@
 //! Results along dynamic lines: against the catenary, and against themselves kept in other ways.
 
-use crate::common::run;
+use crate::common::{print_records, run};
 
 use run::{model, settings};
 use windlass_base::table::Table;
@@ -153,4 +153,50 @@ fn rows_exceeding_memory_are_refused_before_run() {
     assert!(refused.to_string().contains("GB of memory") && refused.help[0].contains("-STORE"), "{refused:?}");
     assert!(Run::new(&model, RunSettings { keep: false, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
     assert!(Run::new(&model, RunSettings { store: 1000, ..settings(1e6, 0.01) }, Vec::new()).is_ok());
+}
+
+/// The numbers of a line of the summary of `ROD .. ENVELOPE`.
+fn summary_numbers(text: &str, label: &str) -> Vec<f64> {
+    let begun = text.lines().skip_while(|line| !line.contains(" ENVELOPE: ")).take(10);
+    let line = begun.into_iter().find(|line| line.trim_start().starts_with(label)).unwrap_or_else(|| panic!("{text}"));
+    line.split([' ', ',', ';']).filter_map(|word| word.parse().ok()).collect()
+}
+
+#[test]
+fn envelope_summary_of_a_chain_at_rest_meets_its_catenary() {
+    let (text, errors) = print_records(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 0\n#WEIGHT *T 1000 5 5 5\n\
+         ~C B_CAT 100 -LEN 350 -DEPANCHOR 100 -WTPLEN 2 -BUOYDIA 0.01 -B_TENSION 5000\nCONNECTOR A ~C *T -ANC 0 280\n\
+         &CONNECTOR A -DYNAMICS 70\nEND\n&ENV -DEPTH 100 -TIME 10 0.5\nTDOM\nPRCPOST\nROD A\nEND\n",
+    );
+    assert_eq!(errors, 0, "{text}");
+    // a = 18.4766 m solves 280 = a acosh(1 + 100 / a) + 350 - s with the hanging length s = root of 100^2 + 200 a = 117.03 m
+    let tension = summary_numbers(&text, "Tension");
+    // at the top w (a + h) = 236.95 kN, on the bottom w a = 36.95 kN; 70 elements
+    assert!((tension[0] - 236.95).abs() < 0.3 && tension[1] == 0.0, "{tension:?}");
+    assert!((tension[3] - 36.95).abs() < 0.3, "{tension:?}");
+    // 237 of 5000 kN
+    assert!((summary_numbers(&text, "Utilisation")[0] - 0.047).abs() < 6e-4);
+    // atan(s / a) = 81.028 deg
+    assert!((summary_numbers(&text, "Departure")[0] - 81.028).abs() < 0.02);
+    // a acosh(1 + h / a) = 47.03 m, s = 117.03 m: within half an element of 5 m, as the touchdown lies between two nodes
+    let layback = summary_numbers(&text, "Layback");
+    assert!((layback[0] - 47.03).abs() < 2.5 && (layback[1] - 117.03).abs() < 2.5, "{layback:?}");
+    assert!(!text.contains("Sagbend"), "a chain has no moment");
+}
+
+#[test]
+fn envelope_summary_has_strain_of_its_largest_moment() {
+    let (text, errors) = print_records(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY SHIP -IGNORE X Y Z RX RY RZ\n*T 0 0 -5\n#WEIGHT *T 1000 5 5 5\n\
+         *E 150 0 -100\n~R ROD 300 20 -LEN 185 -REFINE 24 -FYIELD 450\nCONNECTOR A ~R *T *E\nEND\n\
+         &ENV -DEPTH 100 -SEA REGULAR 180 4 9 -TIME 12 0.25\nTDOM\nPRCPOST\nROD A\nEND\n",
+    );
+    assert_eq!(errors, 0, "{text}");
+    let (strain, sagbend) = (summary_numbers(&text, "Strain"), summary_numbers(&text, "Sagbend"));
+    // M r / E I with r = 0.15 m, E = 29000 ksi = 199.95 GPa, I = pi / 64 (0.3^4 - 0.26^4) = 1.732903E-4 m4, in per cent
+    let expected = 100.0 * sagbend[0] * 1e3 * 0.15 / (199.948e9 * 1.732_903e-4);
+    assert!((strain[0] - expected).abs() < 1e-3 * expected, "{strain:?} {expected}");
+    // where and when are those of the moment
+    assert_eq!(strain[1..], sagbend[1..]);
 }
