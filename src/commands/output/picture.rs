@@ -2,7 +2,7 @@
 
 use crate::commands::name_filter::{NameFilter, merge_remarks};
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::picture::{Picture, View};
+use crate::report::picture::{Picture, USUAL_WIDTH, View};
 use crate::report::plot::PlotError;
 use windlass_base::choice::{Choice, YesNo};
 use windlass_base::choices;
@@ -103,9 +103,17 @@ const IDLE: [OptionSpec; 17] = [
     idle("-POINTS", "which points are drawn"),
     idle("-ANNOTATE", "what is written on the picture"),
 ];
-const OWN: [OptionSpec; 11] = [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING, TENSIONS, NORTH];
+const OWN: [OptionSpec; 12] =
+    [NO, HARD, FILE, FORMAT, FROM, EXAGGERATE, NAMES, INACTIVE, HEADING, TENSIONS, NORTH, PIXELS];
 static OPTIONS: [OptionSpec; OWN.len() + IDLE.len()] = join_options(&OWN, &IDLE);
 
+const PIXELS: OptionSpec = OptionSpec::new(
+    "-PIXELS",
+    &[ValueSpec::new("WIDTH", Kind::Integer, "width of the picture (pixels)").in_range(300.0, 4000.0)],
+    "width of a picture in a file; its height follows from what is drawn",
+)
+.owner(Owner::Ours)
+.default("1000");
 const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
     &[ValueSpec::new("TEXT", Kind::Text, "title, in quotes when it holds blanks")],
@@ -289,6 +297,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         units: job.units,
         tensions: args.switch(&TENSIONS, true),
         north: args.option_number(&NORTH),
+        width: args.option_integer(&PIXELS).and_then(|n| i32::try_from(n).ok()).unwrap_or(USUAL_WIDTH),
     };
     let wrong = |error: PlotError| match error {
         PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)

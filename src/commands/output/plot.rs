@@ -5,7 +5,7 @@ use crate::commands::output::disposition::{
     to_diagnostic, write_file,
 };
 use crate::commands::{Call, Command, Effect, Job};
-use crate::report::plot::{Chart, PlotError, PlotSeries};
+use crate::report::plot::{Chart, PlotError, PlotSeries, PlotSize};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::table::Table;
@@ -53,10 +53,23 @@ const INTACT: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours)
 .default("YES where the table has them");
 
+const PIXELS: OptionSpec = OptionSpec::new(
+    "-PIXELS",
+    &[
+        ValueSpec::new("WIDTH", Kind::Integer, "width of the plot (pixels)").in_range(300.0, 4000.0),
+        ValueSpec::new("HEIGHT", Kind::Integer, "height without the legend (pixels)")
+            .in_range(200.0, 4000.0)
+            .or("2/3 of WIDTH"),
+    ],
+    "size of a plot in an .svg or .png file",
+)
+.owner(Owner::Ours)
+.default("900 600");
+
 static SPEC: CommandSpec = CommandSpec {
     data: &[COLUMN, COLUMN, ANY_COLUMN],
     repeat: 1,
-    options: &[RECORD, VALUES, HEADING, MAG_USE, NO, HARD, FILE, HTML, RAX, POLAR, EQUAL, INTACT],
+    options: &[RECORD, VALUES, HEADING, MAG_USE, NO, HARD, FILE, HTML, RAX, POLAR, EQUAL, INTACT, PIXELS],
     detail: "The first column is the independent one. A last word that ends in .svg, .png or .html is a file name, inside the \
              job's folder when relative (&HELP &FILE); without one the plot is drawn in the terminal. Columns of a second unit have an \
              axis of their own on the right; more than two units on one plot are refused. A page (.html) needs nothing from elsewhere: it shows \
@@ -139,6 +152,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     chart.equal = args.switch(&EQUAL, is_drawn_to_scale) && !chart.polar;
     if let Some(heading) = args.option_word(&HEADING) {
         chart.title = heading.to_string();
+    }
+    if let Some(given) = args.option(&PIXELS) {
+        let pixels = |key| given.integer(key).and_then(|n| u32::try_from(n).ok());
+        let width = pixels(const { PIXELS.integer("WIDTH") }).unwrap_or(chart.size.width);
+        let height = pixels(const { PIXELS.integer("HEIGHT") }).unwrap_or(width * 2 / 3);
+        chart.size = PlotSize { width, height };
     }
     match name {
         Some(name) => {

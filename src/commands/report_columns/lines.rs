@@ -61,7 +61,7 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         printed_by: "GEOMETRY of CONN_DESIGN",
         titles: &["Geometry of @"],
         columns: &[
-            column("X", LENGTH, "horizontal distance from the anchor"),
+            column("X", LENGTH, "horizontal distance from the first end, toward the second"),
             column("Z", LENGTH, "height, from mean water level"),
             column("Arc Length", LENGTH, "length along the line from its first end"),
             column("Tension", FORCE, "tension"),

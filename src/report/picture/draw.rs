@@ -418,7 +418,12 @@ impl<'a, B: DrawingBackend> Pen<'a, B> {
         }
         for name in placed {
             let colour = tones.get(name.label.tone).copied().unwrap_or(BLACK);
-            let [left, top, ..] = name.at;
+            let [left, top, width, height] = name.at;
+            if !self.look.terminal {
+                // where no free place was left a line runs through the name: it shines through faintly
+                let around = [(left, top), (left + width, top + height)];
+                self.area.draw(&Rectangle::new(around, WHITE.mix(0.7).filled())).map_err(to_plot_error)?;
+            }
             self.text(&name.label.text, (left, top), TEXT, colour)?;
         }
         Ok(left_out)

@@ -21,14 +21,18 @@ use windlass_base::geometry::{Position, unit_vector};
 use windlass_base::units::{Dim, UnitSystem};
 use windlass_solve::scene::{Scene, Sign, Stroke};
 
-/// Width of a page and its margin (tenths of a pixel, as all lengths of a page).
-const PAGE: (i32, i32) = (1000 * SUBPIXELS, 16 * SUBPIXELS);
+/// Width of a page unless another is asked for (pixels).
+pub const USUAL_WIDTH: i32 = 1000;
+/// Margin of a page (tenths of a pixel, as all lengths of a page).
+const MARGIN: i32 = 16 * SUBPIXELS;
 /// Height of the title, of the words above a view, of the axes and scale below it, of a row of the legend.
 const ROW_HEIGHTS: [i32; 4] = [44 * SUBPIXELS, 24 * SUBPIXELS, 68 * SUBPIXELS, 26 * SUBPIXELS];
 /// Room left free within the frame of a view: at each side, above and below.
 const FRAME_MARGINS: (i32, i32) = (70 * SUBPIXELS, 36 * SUBPIXELS);
 /// Least and largest height of a view: of a plan or isometric view, and of an elevation.
 const HEIGHTS: [(i32, i32); 2] = [(160 * SUBPIXELS, 620 * SUBPIXELS), (150 * SUBPIXELS, 420 * SUBPIXELS)];
+/// Width of a letter of a large title (pixels).
+const TITLE_LETTER: i32 = 12;
 /// A coordinate beyond this (m) is not drawn.
 const MAX_COORDINATE_M: f64 = 1e9;
 
@@ -49,7 +53,31 @@ pub struct Picture {
     pub tensions: bool,
     /// Where north lies, from +X toward +Y (rad), where plans show it.
     pub north: Option<f64>,
+    /// Width in a file (pixels).
+    pub width: i32,
 }
+
+/// An entry of the legend.
+#[derive(Clone, Copy)]
+enum LegendEntry {
+    Stroke(Stroke, &'static str),
+    Sign(Sign, &'static str),
+}
+
+impl LegendEntry {
+    /// Its width with the room behind it (tenths of a pixel).
+    fn width(self, look: &PictureStyle) -> i32 {
+        let (drawn, words) = match self {
+            LegendEntry::Stroke(_, words) => (36, words),
+            LegendEntry::Sign(_, words) => (18, words),
+        };
+        look.px(drawn + 22) + look.text_width(words)
+    }
+}
+
+/// How a page is drawn.
+const PAGE_STYLE: PictureStyle =
+    PictureStyle { terminal: false, unit: SUBPIXELS, letter: (8 * SUBPIXELS, 16 * SUBPIXELS) };
 
 /// The corners of a rectangle at an elevation about all that a scene holds, with a little room.
 fn corners_around(scene: &Scene, z: f64) -> [Position; 4] {
@@ -109,13 +137,13 @@ impl Picture {
     /// Width and height of the page (pixels).
     fn page_size(&self, panels: &[(View, ViewFrame)]) -> (u32, u32) {
         let pixels = |length: i32| (length / SUBPIXELS).unsigned_abs();
-        (pixels(PAGE.0), pixels(self.height(panels)))
+        (pixels(self.width * SUBPIXELS), pixels(self.height(panels)))
     }
 
     /// The frames of the views on a page, one below the other, each as high as it needs.
     fn panels(&self) -> Result<Vec<(View, ViewFrame)>, PlotError> {
         let [title, head, foot, _] = ROW_HEIGHTS;
-        let width = PAGE.0 - 2 * PAGE.1;
+        let width = self.width * SUBPIXELS - 2 * MARGIN;
         let mut top = title;
         let mut panels = Vec::new();
         for view in &self.views {
@@ -123,9 +151,11 @@ impl Picture {
             let [w, h] = extent.size();
             let [plan, side] = HEIGHTS;
             let (least, most) = if view.kind == ViewKind::Elevation { side } else { plan };
+            // a wider page is higher too
+            let most = (i64::from(most) * i64::from(self.width.max(USUAL_WIDTH)) / i64::from(USUAL_WIDTH)) as i32;
             let natural = f64::from(width - 2 * FRAME_MARGINS.0) * h / w + f64::from(2 * FRAME_MARGINS.1);
             let height = (natural.round() as i32).clamp(least, most);
-            panels.push((*view, ViewFrame::fit(&extent, [PAGE.1, top + head, width, height], FRAME_MARGINS)));
+            panels.push((*view, ViewFrame::fit(&extent, [MARGIN, top + head, width, height], FRAME_MARGINS)));
             top += head + height + foot;
         }
         Ok(panels)
@@ -138,8 +168,9 @@ impl Picture {
 
     fn height(&self, panels: &[(View, ViewFrame)]) -> i32 {
         let [title, _, foot, row] = ROW_HEIGHTS;
-        let legend = if self.tension_scale().is_some() { 2 * row } else { row };
-        panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + legend + PAGE.1 / 2
+        let rows = i32::try_from(self.legend_rows().len().max(1)).unwrap_or(1);
+        let bar = i32::from(self.tension_scale().is_some());
+        panels.last().map_or(title, |(_, frame)| frame.at[1] + frame.at[3] + foot) + (rows + bar) * row + MARGIN / 2
     }
 
     fn page<B: DrawingBackend>(
@@ -147,11 +178,13 @@ impl Picture {
         area: &DrawingArea<B, Shift>,
         panels: &[(View, ViewFrame)],
     ) -> Result<usize, PlotError> {
-        let look = PictureStyle { terminal: false, unit: SUBPIXELS, letter: (8 * SUBPIXELS, 16 * SUBPIXELS) };
-        let pen = Pen::new(area, &look);
+        let look = &PAGE_STYLE;
+        let pen = Pen::new(area, look);
         let px = |pixels: i32| look.px(pixels);
         area.fill(&WHITE).map_err(to_plot_error)?;
-        pen.text(&self.title, (PAGE.1, px(12)), 22, BLACK)?;
+        let letters = i32::try_from(self.title.chars().count()).unwrap_or(i32::MAX);
+        let title_size = if letters.saturating_mul(TITLE_LETTER) > self.width { 15 } else { 22 };
+        pen.text(&self.title, (MARGIN, px(12)), title_size, BLACK)?;
         let mut left_out = 0;
         let tensions = self.tension_scale();
         for (view, frame) in panels {
@@ -168,27 +201,54 @@ impl Picture {
             let (length, words) = self.scale(frame, 0.25 * f64::from(width));
             pen.scale((right - px(10), low + px(20)), length, &words)?;
         }
-        let mut x = PAGE.1;
-        let mut y = self.height(panels) - PAGE.1 / 2 - ROW_HEIGHTS[3] / 2;
+        let mut y = self.height(panels) - MARGIN / 2 - ROW_HEIGHTS[3] / 2;
         if let Some(scale) = tensions {
             let [low, high] = [scale.low, scale.high].map(|tension| Dim::Force.from_si(tension, self.units));
             let value = |tension: f64| format::tick(tension, (high - low).max(1e-3 * high.abs()) / 100.0, high.abs());
             let caption = format!("tension along the line ({})", Dim::Force.label(self.units));
-            pen.tension_bar((x, y), [&value(low), &value(high), &caption])?;
+            pen.tension_bar((MARGIN, y), [&value(low), &value(high), &caption])?;
             y -= ROW_HEIGHTS[3];
         }
         let grey = RGBColor(60, 60, 60);
-        for (stroke, words) in self.strokes() {
-            pen.stroke(stroke, vec![(x, y), (x + px(30), y)])?;
-            pen.text(words, (x + px(36), y - px(8)), 15, grey)?;
-            x += px(36 + 22) + look.text_width(words);
-        }
-        for (sign, words) in self.signs() {
-            pen.sign(sign, (x + px(6), y))?;
-            pen.text(words, (x + px(18), y - px(8)), 15, grey)?;
-            x += px(18 + 22) + look.text_width(words);
+        for row in self.legend_rows().into_iter().rev() {
+            let mut x = MARGIN;
+            for entry in row {
+                match entry {
+                    LegendEntry::Stroke(stroke, words) => {
+                        pen.stroke(stroke, vec![(x, y), (x + px(30), y)])?;
+                        pen.text(words, (x + px(36), y - px(8)), 15, grey)?;
+                    }
+                    LegendEntry::Sign(sign, words) => {
+                        pen.sign(sign, (x + px(6), y))?;
+                        pen.text(words, (x + px(18), y - px(8)), 15, grey)?;
+                    }
+                }
+                x += entry.width(look);
+            }
+            y -= ROW_HEIGHTS[3];
         }
         Ok(left_out)
+    }
+
+    /// The entries of the legend, in rows as wide as the page.
+    fn legend_rows(&self) -> Vec<Vec<LegendEntry>> {
+        let strokes = self.strokes().map(|(stroke, words)| LegendEntry::Stroke(stroke, words));
+        let signs = self.signs().map(|(sign, words)| LegendEntry::Sign(sign, words));
+        let room = self.width * SUBPIXELS - 2 * MARGIN;
+        let (mut rows, mut filled): (Vec<Vec<LegendEntry>>, i32) = (Vec::new(), room);
+        for entry in strokes.chain(signs) {
+            let width = entry.width(&PAGE_STYLE);
+            // the room behind the last entry of a row may lie in the margin
+            if filled + width - PAGE_STYLE.px(22) > room {
+                rows.push(Vec::new());
+                filled = 0;
+            }
+            filled += width;
+            if let Some(row) = rows.last_mut() {
+                row.push(entry);
+            }
+        }
+        rows
     }
 
     /// A round length in user units that takes at most so many pixels: its pixels, and its words.

@@ -2,7 +2,7 @@
 
 use super::axis::PlotAxis;
 use super::stroke::{CurveStyle, dashes};
-use super::{Chart, PlotError, PlotSeries, SUBPIXELS, terminal};
+use super::{Chart, PlotError, PlotSeries, PlotSize, SUBPIXELS, terminal};
 use plotters::chart::{ChartBuilder, DualCoordChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
@@ -15,6 +15,12 @@ use plotters::style::ShapeStyle;
 const MAX_MARKED_POINTS: usize = 60;
 /// Radius of a point of a curve, and of a mark that stands alone (pixels).
 const MARK_RADII: (i32, i32) = (3, 6);
+/// Pixels from one tick to the next, about, along the page and up: room for its number.
+const PIXELS_PER_TICK: [u32; 2] = [90, 60];
+/// Least and most ticks of an axis.
+const TICKS: [usize; 2] = [6, 16];
+/// Width of a letter of a large title (pixels).
+const TITLE_LETTER: u32 = 12;
 /// Width of the stroke of a curve (pixels).
 const CURVE_WIDTH: u32 = 2;
 /// Height of a row of the legend, length of the stroke in it, width of a letter, room between two entries (pixels).
@@ -38,17 +44,24 @@ pub struct PlotStyle {
 }
 
 impl PlotStyle {
-    /// A page of 900 by 600 pixels, in tenths of a pixel.
-    pub const PAGE: PlotStyle = PlotStyle {
-        terminal: false,
-        unit: SUBPIXELS,
-        text: 15 * SUBPIXELS,
-        title: 22 * SUBPIXELS,
-        margin: 16 * SUBPIXELS,
-        areas: (54 * SUBPIXELS, 92 * SUBPIXELS),
-        ticks: (10, 10),
-        mark: 5 * SUBPIXELS,
-    };
+    /// The page of a chart, in tenths of a pixel: as many ticks as its sides have room for, and a title as wide as it at most.
+    pub fn page(chart: &Chart) -> PlotStyle {
+        let PlotSize { width, height } = chart.size;
+        let ([along, up], [least, most]) = (PIXELS_PER_TICK, TICKS);
+        let ticks = |count: u32| usize::try_from(count).unwrap_or(0).clamp(least, most);
+        let letters = u32::try_from(chart.title.chars().count()).unwrap_or(u32::MAX);
+        let title = if letters.saturating_mul(TITLE_LETTER) > width { 15 } else { 22 };
+        PlotStyle {
+            terminal: false,
+            unit: SUBPIXELS,
+            text: 15 * SUBPIXELS,
+            title: title * SUBPIXELS,
+            margin: 16 * SUBPIXELS,
+            areas: (54 * SUBPIXELS, 92 * SUBPIXELS),
+            ticks: (ticks(width / along), ticks(height / up)),
+            mark: 5 * SUBPIXELS,
+        }
+    }
 
     /// A terminal of so many characters; titles stand outside of the drawing.
     pub fn terminal(columns: usize, lines: usize) -> PlotStyle {
@@ -267,7 +280,7 @@ fn legend_width(series: &PlotSeries) -> i32 {
 
 /// The rows of the legend: which curves stand in each, and how many find no room in it.
 fn legend_rows(chart: &Chart) -> (Vec<Vec<usize>>, usize) {
-    let room = i32::try_from(super::SIZE.0).unwrap_or(0) - 2 * LEGEND[3];
+    let room = i32::try_from(chart.size.width).unwrap_or(0) - 2 * LEGEND[3];
     let mut rows: Vec<Vec<usize>> = Vec::new();
     let mut filled = room;
     for (index, series) in chart.series.iter().enumerate() {

@@ -22,8 +22,21 @@ use windlass_base::units::{Dim, UnitSystem};
 pub const SUBPIXELS: i32 = 10;
 /// Largest ratio of the sides of lengths over lengths that are drawn to one scale unless something else is asked for.
 const MAX_SIDES_RATIO: f64 = 5.0;
-/// Size of a plot in a file, without its legend (pixels).
-const SIZE: (u32, u32) = (900, 600);
+
+/// Size of a plot in a file, without its legend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PlotSize {
+    /// Width (pixels).
+    pub width: u32,
+    /// Height (pixels).
+    pub height: u32,
+}
+
+impl Default for PlotSize {
+    fn default() -> Self {
+        PlotSize { width: 900, height: 600 }
+    }
+}
 
 /// A line of a chart; points without a finite value break it, and where no two neighbours have one there are marks alone.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,6 +66,8 @@ pub struct Chart {
     pub polar: bool,
     /// Whether both axes have one scale, so that lengths can be compared.
     pub equal: bool,
+    /// How large it is in a file.
+    pub size: PlotSize,
 }
 
 /// Why a plot could not be drawn.
@@ -209,6 +224,7 @@ impl Chart {
             series: series.collect(),
             polar: false,
             equal: false,
+            size: PlotSize::default(),
         })
     }
 
@@ -240,12 +256,12 @@ impl Chart {
     /// # Errors
     /// [`PlotError`].
     pub fn svg(&self) -> Result<Vec<u8>, PlotError> {
-        draw_svg(self.page_size(), |area| draw(self, area, &PlotStyle::PAGE)).map(|(bytes, ())| bytes)
+        draw_svg(self.page_size(), |area| draw(self, area, &PlotStyle::page(self))).map(|(bytes, ())| bytes)
     }
 
     /// Width and height of its page (pixels).
     fn page_size(&self) -> (u32, u32) {
-        (SIZE.0, SIZE.1 + draw::legend_height(self).unsigned_abs())
+        (self.size.width, self.size.height + draw::legend_height(self).unsigned_abs())
     }
 
     /// The chart as PNG.
@@ -255,7 +271,7 @@ impl Chart {
     pub fn png(&self) -> Result<Vec<u8>, PlotError> {
         let (width, height) = self.page_size();
         let canvas = Rc::new(RefCell::new(raster::RasterCanvas::new(width, height)));
-        draw(self, &DrawingArea::from(&canvas), &PlotStyle::PAGE)?;
+        draw(self, &DrawingArea::from(&canvas), &PlotStyle::page(self))?;
         canvas.borrow().encode().map_err(|e| PlotError::Backend(e.to_string()))
     }
 
