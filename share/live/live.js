@@ -54,6 +54,18 @@
     const at = (p) => [WIDTH / 2 + (p[across] - (x0 + x1) / 2) * scale, HEIGHT / 2 - (p[up] - (y0 + y1) / 2) * scale];
     const text = (points) => points.map((p) => at(p).map((v) => v.toFixed(2)).join(",")).join(" ");
     const figure = make("figure"), svg = draw("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": title });
+    // a name stands beside its place, where no other name stands
+    const taken = [];
+    const label = ([x, y], name) => {
+      const w = 7 * name.length, h = 12;
+      const places = [];
+      for (const away of [0, 13, 26, 39]) for (const [dx, dy] of [[5, -5 - away], [5, 13 + away], [-5 - w, -5 - away], [-5 - w, 13 + away]]) places.push([x + dx, y + dy]);
+      const free = ([left, low]) => left > 0 && left + w < WIDTH && low > h && low < HEIGHT
+        && taken.every(([l, b, width]) => left + w < l || l + width < left || low - h > b || b - h > low);
+      const [left, low] = places.find(free) || places[0];
+      taken.push([left, low, w]);
+      return draw("text", { x: left, y: low }, name);
+    };
     figure.append(make("h2", {}, `${title} (${data.length})`), svg);
     if (up === 2) {
       for (const [level, name] of [[scene.surface, "level"], [scene.bottom, "ground"]]) {
@@ -68,15 +80,14 @@
         if (hull.length > 1) svg.append(draw("polygon", { points: hull.map((p) => p.join(",")).join(" "), class: "body" }));
       }
       const [x, y] = at(body.origin);
-      svg.append(draw("circle", { cx: x, cy: y, r: 2.5 }), draw("text", { x: x + 5, y: y - 5 }, body.name));
+      svg.append(draw("circle", { cx: x, cy: y, r: 2.5 }), label([x, y], body.name));
     }
     for (const path of scene.paths) {
       const group = draw("g"), points = text(path.points);
       group.append(draw("polyline", { points, class: `path ${path.kind}` }));
       if (path.kind !== "bottom") {
         group.append(draw("polyline", { points, class: "hit" }), draw("title", {}, path.name));
-        const [x, y] = at(path.points[path.points.length - 1]);
-        group.append(draw("text", { x: x + 4, y: y - 4 }, path.name));
+        group.append(label(at(path.points[path.points.length - 1]), path.name));
         selectable(path.name, group);
       }
       svg.append(group);
@@ -137,12 +148,12 @@
       if (finite.length < 2) continue;
       const low = (v) => finite.reduce((a, i) => Math.min(a, v[i]), Infinity), high = (v) => finite.reduce((a, i) => Math.max(a, v[i]), -Infinity);
       const [x0, x1, y0, y1] = [low(x), high(x), low(y), high(y)];
-      const px = (v) => EDGE + (v - x0) / (x1 - x0 || 1) * (WIDTH - 2 * EDGE), py = (v) => 200 - 25 - (v - y0) / (y1 - y0 || 1) * 150;
+      const LEFT = 60, px = (v) => LEFT + (v - x0) / (x1 - x0 || 1) * (WIDTH - LEFT - EDGE), py = (v) => 200 - 25 - (v - y0) / (y1 - y0 || 1) * 150;
       const figure = make("figure"), svg = draw("svg", { viewBox: `0 0 ${WIDTH} 200`, role: "img", "aria-label": `${curve.name} ${curve.what}` });
       svg.append(draw("polyline", { points: finite.map((i) => `${px(x[i]).toFixed(2)},${py(y[i]).toFixed(2)}`).join(" "), class: "path" }));
       const figures = (v) => Number(v.toPrecision(5)).toString();
       svg.append(draw("text", { x: 4, y: 20 }, figures(y1)), draw("text", { x: 4, y: 180 }, figures(y0)));
-      svg.append(draw("text", { x: EDGE, y: 196 }, `${figures(x0)} s`), draw("text", { x: WIDTH - EDGE, y: 196, "text-anchor": "end" }, `${figures(x1)} s`));
+      svg.append(draw("text", { x: LEFT, y: 196 }, `${figures(x0)} s`), draw("text", { x: WIDTH - EDGE, y: 196, "text-anchor": "end" }, `${figures(x1)} s`));
       figure.append(make("h2", {}, `${curve.name}: ${curve.what}`), svg);
       box.append(figure);
     }

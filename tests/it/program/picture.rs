@@ -165,3 +165,38 @@ fn pipe_picture_has_pipe_and_supports_where_records_put_them() {
     assert!((last[2] + 50.0).abs() < 0.2, "{last:?}");
     assert!((580.0..=620.0).contains(&(pipe.tensions[0] / 1e3)), "{}", pipe.tensions[0]);
 }
+
+/// Width and height of a PNG file (pixels), from its header (bytes 16 to 24).
+fn png_size(path: &std::path::Path) -> [u32; 2] {
+    let bytes = std::fs::read(path).unwrap();
+    [16, 20].map(|at| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap()))
+}
+
+#[test]
+fn plots_and_pictures_are_as_large_as_pixels_says() {
+    let (mut session, _screen, folder) = session();
+    session.open(
+        "records",
+        "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY SHIP\n*F 0 0 0\n~C B_CAT -TYPE CHAIN_R4 80 -LEN 500 -DEPANCHOR 100\n\
+         CONNECTOR A -ANC 0 450 ~C *F\nEND\n&ENV -DEPTH 100\n&PICTURE -FILE small.png -PIXELS 480\n\
+         &PICTURE -FILE usual.png\n&PICTURE -FILE large.png -PIXELS 1600\nCONN_DESIGN\nTABLE A\nPLOT X Force -FILE p.png -PIXELS 640 300\n\
+         PLOT X Force -FILE q.png -PIXELS 480\nPLOT X Force -FILE r.png\nPLOT X Force -FILE s.svg -PIXELS 480\nEND\nEND\n"
+            .to_string(),
+    );
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let at = |name: &str| folder.path().join("job.ans").join(name);
+    assert_eq!(["p.png", "q.png", "r.png"].map(|name| png_size(&at(name))), [[640, 300], [480, 320], [900, 600]]);
+    let widths = ["small.png", "usual.png", "large.png"].map(|name| png_size(&at(name))[0]);
+    assert_eq!(widths, [480, 1000, 1600]);
+    assert!(std::fs::read_to_string(at("s.svg")).unwrap().contains("width=\"480\" height=\"320\""));
+    for (record, message) in [
+        ("&PICTURE -FILE t.png -PIXELS 20", "WIDTH of -PIXELS of &PICTURE must be"),
+        ("&PICTURE -FILE t.png -PIXELS wide", "WIDTH of -PIXELS of &PICTURE must be"),
+    ] {
+        session.open("record", record.to_string());
+        session.run();
+        assert!(session.reports.last().unwrap().message.contains(message), "{record}: {:?}", session.reports.last());
+        assert!(!at("t.png").exists());
+    }
+}
