@@ -72,6 +72,7 @@ impl Absent {
     }
 }
 
+const HYDROSTATICS: Loss = Loss::Solves(SolveKind::Hydrostatics);
 const STATICS: Loss = Loss::Solves(SolveKind::Statics);
 const MOTIONS: Loss = Loss::Solves(SolveKind::Motions);
 
@@ -96,6 +97,7 @@ static DISPOSITION: MenuSpec = MenuSpec { name: "DISPOSITION", end: "END_DISPOSE
 const TOTAL: &str = "I_TOTAL gives added mass, damping and wave forces by records, DATABASE reads them";
 const DRIFT: &str = "#DRIFT gives mean drift by records, DATABASE reads it";
 const NO_STRESS: &str = "a stress analysis, which windlass does not make";
+const LAUNCH_LEGS: &str = "launch legs, on which a jacket slides from its barge";
 const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
 
 /// A table of FREQ_RESPONSE that is not made.
@@ -135,29 +137,28 @@ pub static ABSENT: &[Absent] = &[
     Absent::new("&PLTMODE", Loss::Nothing, "it draws; &PICTURE draws the system").opens(&PLTMODE),
     Absent::new("&EVENT_STORE", Loss::Results, "events stored by hand")
         .instead("&INFO and string functions give values to keep"),
-    Absent::new("&VARIABLE", Loss::Results, "names kept in a database")
-        .instead("&SET keeps a list of words, &TOKEN takes it apart"),
     Absent::new("SP_BEAM", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
         .in_menus(MODEL),
     Absent::new("SP_PLATE", Loss::Nothing, "it reports stresses of other members, and adds nothing to the model")
         .in_menus(MODEL),
-    Absent::new("ED_ELEMENT", STATICS, "changes of structural members").in_menus(MODEL),
+    Absent::new("ED_ELEMENT", HYDROSTATICS, "changes of structural members").in_menus(MODEL),
     Absent::new("RESTRAINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
     Absent::new("REST", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
     Absent::new("RELEASES", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
     Absent::new("JOINT", Loss::Nothing, "it acts in a stress analysis alone").in_menus(MODEL),
-    Absent::new("ASSEMBLY LLEG", STATICS, "launch legs, on which a jacket slides from its barge").in_menus(MODEL),
+    Absent::new("ASSEMBLY LLEG", STATICS, LAUNCH_LEGS).in_menus(MODEL),
+    Absent::new("&LWAY", STATICS, LAUNCH_LEGS),
     Absent::new("ASSEMBLY CONTROL", STATICS, "a control of lengths and forces").in_menus(MODEL),
     Absent::new(
         "TKR_MODEL",
-        STATICS,
+        HYDROSTATICS,
         "the hull, weight, wind and current of a tanker of MOSES's macro library V_MODEL, whose ships are not public",
     )
     .instead(TUBE_INSTEAD),
-    Absent::new("JGEN_INIT", STATICS, "a jackup of MOSES's macro library V_MODEL, whose forms are not public"),
-    Absent::new("TKR_GEN", STATICS, "a moored tanker, by a macro library of MOSES"),
+    Absent::new("JGEN_INIT", HYDROSTATICS, "a jackup of MOSES's macro library V_MODEL, whose forms are not public"),
+    Absent::new("TKR_GEN", HYDROSTATICS, "a moored tanker, by a macro library of MOSES"),
     Absent::new("TKR_SIM", Loss::Results, "simulations of a moored tanker, by a macro library of MOSES"),
-    Absent::new("JKT_GEN", STATICS, "a jacket, by a macro library of MOSES"),
+    Absent::new("JKT_GEN", HYDROSTATICS, "a jacket, by a macro library of MOSES"),
     Absent::new("SU_SHOW", Loss::Nothing, "it draws"),
     Absent::new("SUPLOT", Loss::Nothing, "it draws"),
     frequency("TD_POINT", "one realisation of the motion of a point").instead("TDOM gives motions in time"),
@@ -188,14 +189,9 @@ pub static CLASSES: &[AbsentClass] = &[
 
 /// Kinds of `&STATUS` that MOSES has and windlass does not, with what to ask for instead.
 pub static REPORTS: &[(&str, &str)] = &[
-    ("DG_CONNECTOR", "G_CONNECTOR reports the geometry of connectors, TABLE of CONN_DESIGN their design"),
-    ("SPREAD", "G_CONNECTOR and LINE_ANGLES report the lines of a mooring"),
     ("PILE", "windlass has no piles"),
     ("LLEG", "windlass has no launch legs"),
     ("NOTE", "messages stand in the log"),
-    ("DISPLACEMENT", "CONFIGURATION reports places, HYDROSTATICS what bodies displace"),
-    ("SEA_TSERIES", "POINTS of PRCPOST gives the wave elevation of a run; SEA_SPECTRUM the components"),
-    ("WIND_TSERIES", "WIND_SPECTRUM reports the gusts"),
     ("T_CONVOLUTION", "CURVES reports curves"),
     ("F_CONVOLUTION", "CURVES reports curves"),
 ];

@@ -3,8 +3,8 @@
 use super::{
     Call, Command, accepted, action, alter, apply, assembly, bathymetry, block_combination, buildg, class, compartment,
     connector, curves, database, describe, device, disposition, element, env, file, hydrodynamics, hydrostatic,
-    junction, loads, menus, message, names, parameter, pgen, piece, pipe, prescribe, rep_select, select, status,
-    surface, t_pressure, units, weight,
+    junction, loads, menus, message, name_list, names, parameter, pgen, piece, pipe, prescribe, rep_select, select,
+    status, surface, t_pressure, units, weight,
 };
 use crate::commands::solve::hstatics::equi_h;
 use crate::commands::solve::{equilibrium, tdom};
@@ -98,6 +98,7 @@ static RUN: &[&Command] = &[
     &units::DEFAULT,
     &parameter::PARAMETER,
     &device::DEVICE,
+    &name_list::VARIABLE,
     &message::TITLE,
     &message::SUBTITLE,
     &message::FINISH,

@@ -334,7 +334,7 @@ fn option_lines(option: &OptionSpec, units: UnitSystem) -> Vec<String> {
     let effect = match option.effect {
         OptionEffect::Acts => "",
         OptionEffect::Noted => " [no effect on results]",
-        OptionEffect::Stops(SolveKind::Statics, _) => " [not computed: stops the next solve]",
+        OptionEffect::Stops(SolveKind::Hydrostatics | SolveKind::Statics, _) => " [not computed: stops the next solve]",
         OptionEffect::Stops(SolveKind::Motions, _) => " [not computed: stops the next solve of motions]",
     };
     let explained = option.values.len() > 1 || option.values.iter().any(|v| v.help != option.help);

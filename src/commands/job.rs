@@ -341,6 +341,12 @@ pub struct Job {
     pub equilibrium: EquilibriumOptions,
     /// What happens during runs.
     pub actions: Vec<Action>,
+    /// Lists of `&VARIABLE`.
+    pub name_lists: IndexMap<String, Vec<String>>,
+    /// How many words of a list that fit a selector have been taken, of each list and selector.
+    pub name_walks: IndexMap<(String, String), usize>,
+    /// A `&GET` has had no answer, and an error has said so.
+    pub unanswered: bool,
     /// The name of the current process.
     pub process: String,
     /// The other processes, by key.
@@ -406,6 +412,9 @@ impl Job {
             long_name_said: false,
             equilibrium: EquilibriumOptions::default(),
             actions: Vec::new(),
+            name_lists: IndexMap::new(),
+            name_walks: IndexMap::new(),
+            unanswered: false,
             process: "DEFAULT".into(),
             processes: IndexMap::new(),
             run: None,

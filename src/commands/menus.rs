@@ -78,6 +78,9 @@ pub fn find_opened_menu(job: &Job, spec: &CommandSpec, words: &[Word]) -> Option
         Opens::AtMost(name, count) => (words.len() <= count + 1).then_some(name),
         Opens::AtMostElse(name, count, other) => Some(if words.len() <= count + 1 { name } else { other }),
         Opens::WithOption(name, option) => words.iter().any(|w| stands_for(w, option)).then_some(name),
+        Opens::WithEither(name, options) => {
+            words.iter().any(|w| options.iter().any(|option| stands_for(w, option))).then_some(name)
+        }
         Opens::WithoutOption(name, option) => (!words.iter().any(|w| stands_for(w, option))).then_some(name),
         Opens::Short(name, count) => {
             let data = words.iter().skip(1).take_while(|w| w.kind != Lex::Option).count();

@@ -35,6 +35,7 @@ pub use job::{Checking, DeviceSettings, Job, KeptTable, Menu, MeshVertices};
 pub use menus::{find_opened_menu, finish};
 pub use model::block_combination::assign as assign_block;
 pub use model::class::keep_refused as keep_refused_class;
+pub use model::pgen::keep_refused as keep_refused_surface;
 pub use model::shapes::take_shape;
 use model::{
     alter, apply, assembly, block_combination, class, compartment, connector, database, describe, element,
@@ -46,7 +47,7 @@ use output::{
 };
 use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
-use settings::{accepted, device, history, parameter, units};
+use settings::{accepted, device, history, name_list, parameter, units};
 pub use solve::lines::ADDED as COLUMNS_OF_LINES;
 pub use solve::stored::{StoredError, find_stored};
 pub(crate) use solve::summary::count;
@@ -239,6 +240,7 @@ static LISTED: &[&Command] = &[
     &frequency_statistics::ST_CFORCE,
     &frequency_statistics::FR_FCARGO,
     &frequency_statistics::ST_FCARGO,
+    &frequency_statistics::ST_CARGO,
     &frequency_equations::EXFORCE,
     &frequency_equations::MATRICES,
     &frequency_equations::EQU_SUM,
@@ -305,6 +307,7 @@ static LISTED: &[&Command] = &[
     &units::DIMEN,
     &units::DEFAULT,
     &parameter::PARAMETER,
+    &name_list::VARIABLE,
     &device::DEVICE,
     &accepted::LOGDEVICE,
     &accepted::CHANNEL,

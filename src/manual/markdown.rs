@@ -96,7 +96,9 @@ pub fn describe_effect(option: &OptionSpec) -> String {
     match option.effect {
         OptionEffect::Acts => String::new(),
         OptionEffect::Noted => "No effect on results.".to_string(),
-        OptionEffect::Stops(SolveKind::Statics, _) => "Not computed: stops the next solve.".to_string(),
+        OptionEffect::Stops(SolveKind::Hydrostatics | SolveKind::Statics, _) => {
+            "Not computed: stops the next solve.".to_string()
+        }
         OptionEffect::Stops(SolveKind::Motions, _) => "Not computed: stops the next solve of motions.".to_string(),
     }
 }

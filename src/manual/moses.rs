@@ -37,6 +37,7 @@ impl RecordState {
     fn of_command(command: &'static Command) -> Self {
         match CheckedAs::from_command(command) {
             CheckedAs::WithoutEffect => RecordState::Noted,
+            _ if !command.spec.stops.is_empty() => RecordState::Stops,
             _ => RecordState::Acts,
         }
     }
@@ -133,7 +134,7 @@ fn rows_of_menu(position: Option<&'static MenuSpec>) -> Vec<RecordRow> {
         .map(|command| RecordRow {
             name: command.spec.name,
             state: RecordState::of_command(command),
-            says: escape(&sentence(command.spec.help)),
+            says: escape(&describe_command(command.spec)),
             options: idle_options(command.spec),
         })
         .collect();
@@ -152,6 +153,11 @@ fn rows_of_menu(position: Option<&'static MenuSpec>) -> Vec<RecordRow> {
         options: String::new(),
     }));
     rows
+}
+
+fn describe_command(spec: &CommandSpec) -> String {
+    let stops = if spec.stops.is_empty() { String::new() } else { format!(" {}", sentence(spec.stops)) };
+    format!("{}{stops}", sentence(spec.help))
 }
 
 fn describe_absent(entry: &Absent) -> String {

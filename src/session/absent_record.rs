@@ -13,6 +13,11 @@ impl Session {
         let passes = entry.opens.filter(|_| !self.interactive);
         self.job.menus.extend(passes.map(Menu::Refused));
         self.judge_absent(entry.loss);
+        if entry.name == "ASSEMBLY LLEG" {
+            // all legs together have this name
+            let position = self.interpreter.sources.location(first.span);
+            self.keep_missing_names(["&LWAY"], &position);
+        }
         if self.job.absent_said.contains(&entry.name) {
             return Ok(Effect::Done);
         }

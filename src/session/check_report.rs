@@ -19,6 +19,8 @@ pub(super) enum Judgement {
     Noted,
     Refused,
     NotJudged,
+    /// It is refused for want of what a refused record would have made.
+    Follows,
 }
 
 /// Each with its head in the table, and what stands over the list of its records.
@@ -46,6 +48,8 @@ pub struct CheckReport {
     listed: Vec<ListedRecord>,
     /// Records of menus that were refused or are not in windlass.
     pub(super) passed_over: usize,
+    /// Records that are refused for want of what others, which are listed, would have made.
+    pub(super) following: usize,
     /// Why it ended before the script.
     pub(super) ended: Option<String>,
     /// The place of the record at hand.
@@ -114,6 +118,12 @@ impl CheckReport {
         ));
         if self.passed_over > 0 {
             lines.push(format!("{} more are passed over with the menus they are in", self.passed_over));
+        }
+        if self.following > 0 {
+            lines.push(format!(
+                "{} more are not done, for want of what refused records would have made",
+                self.following
+            ));
         }
         lines.extend(self.ended.as_ref().map(|why| format!("{why}: what follows is not checked")));
         Some(lines)

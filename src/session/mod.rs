@@ -3,6 +3,7 @@
 
 mod absent_record;
 mod check_report;
+mod consequences;
 mod deck;
 mod live_page;
 mod named;
@@ -13,6 +14,7 @@ mod skipped_menu;
 pub use check_report::{CheckReport, CheckWatch};
 pub use reading::{RecordReadError, read_all, read_text};
 
+use self::consequences::RefusedRecords;
 use self::named::{in_menu, plain_word, unknown_name_error};
 use self::script_check::ScriptCheck;
 use crate::commands::absent::{self, Absent};
@@ -85,6 +87,8 @@ pub struct Session {
     executed: Executed,
     /// What a check has found, where the script is only checked.
     check: Option<ScriptCheck>,
+    /// What of refused records later ones may need.
+    refused: RefusedRecords,
     /// The last record of this menu was unknown: records of a disposition menu that follow were meant for what it should have opened.
     lost_opener: bool,
 }
@@ -108,6 +112,7 @@ impl Session {
             listed: None,
             executed: Executed::Nothing,
             check: None,
+            refused: RefusedRecords::default(),
             lost_opener: false,
         }
     }
@@ -317,10 +322,12 @@ impl Session {
             Ok(effect) => effect,
             Err(error) => {
                 let fatal = error.severity == Severity::Fatal;
-                self.report(*error);
+                self.refuse_surface(&words, &error);
+                self.report_refusal(record, &words, *error);
                 return fatal;
             }
         };
+        self.note_body(&words);
         self.keep_in_journal(text, &words, &effect);
         self.say_opened_menu(open_menus);
         // a record that only speaks keeps the severity it may be about to ask for
@@ -365,6 +372,18 @@ impl Session {
                 }
                 false
             }
+        }
+    }
+
+    /// A record of a surface that is being given was refused: the surface is not made, in a script.
+    fn refuse_surface(&mut self, words: &[Word], error: &Diagnostic) {
+        let is_internal = words.first().is_none_or(|first| first.kind == TokenKind::Internal);
+        if self.interactive || is_internal {
+            return;
+        }
+        if let Some(Menu::Planes(planes) | Menu::Block(planes)) = self.job.menus.last_mut() {
+            planes.refuse();
+            commands::keep_refused_surface(&mut self.job, "PLANE", error.span.unwrap_or_default());
         }
     }
 
@@ -598,7 +617,7 @@ impl Session {
         }
         if let Some(menu) = self.job.menus.pop() {
             for diagnostic in commands::finish(&mut self.job, menu, at) {
-                self.report(diagnostic);
+                self.report_at_end(diagnostic);
             }
         }
     }

@@ -23,7 +23,7 @@ pub(super) struct ScriptCheck {
     started: Instant,
     report: Arc<Mutex<CheckReport>>,
     /// What is known of the record at hand before it has ended.
-    judged: Option<Judgement>,
+    pub(super) judged: Option<Judgement>,
 }
 
 impl Session {
@@ -59,6 +59,10 @@ impl Session {
         let hangs_on_result = self.job.checking.is_some_and(|checking| checking.hangs_on_result);
         let Some(check) = &mut self.check else { return true };
         let judgement = match check.judged {
+            Some(Judgement::Follows) => {
+                lock(&check.report).following += 1;
+                return over;
+            }
             _ if refused => Judgement::Refused,
             _ if hangs_on_result => Judgement::NotJudged,
             _ if stops.is_some() => Judgement::Stops,
@@ -71,7 +75,8 @@ impl Session {
             None if name == "END" || name.starts_with("END_") => return over,
             None => Judgement::Acts,
         };
-        let said = stops.unwrap_or_else(|| text.replace(UNKNOWN, "(unknown)"));
+        let said =
+            stops.filter(|_| judgement != Judgement::Refused).unwrap_or_else(|| text.replace(UNKNOWN, "(unknown)"));
         lock(&check.report).add(judgement, name, position, said);
         over
     }

@@ -2,7 +2,7 @@
 //! passed over up to its `END`, so that one mistake gives one message and every `END` leaves the menu it was written for.
 
 use super::{Meaning, Session};
-use crate::commands::{COMMANDS, Command, Effect, Menu, find_opened_menu, menu};
+use crate::commands::{self, COMMANDS, Command, Effect, Menu, find_opened_menu, menu};
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_language::record::Word;
 use windlass_language::spec::MenuSpec;
@@ -33,6 +33,22 @@ static INNER_MENUS: &[(&MenuSpec, &[&MenuSpec])] = &[
     ),
 ];
 
+/// Records that give surfaces to hulls and compartments.
+const SURFACE_RECORDS: [&str; 12] = [
+    "PGEN",
+    "PLANE",
+    "PANEL",
+    "BLOCK",
+    "MESH",
+    "VERTEX",
+    "UNION",
+    "INTERSECT",
+    "DIFFERENCE",
+    "EMIT",
+    "&EMIT",
+    "TUBTANK",
+];
+
 /// The first of the menus that a menu opens which has a command of this name, where the menu itself has none.
 fn inner_menu(outer: &'static MenuSpec, word: &str) -> Option<&'static MenuSpec> {
     let (_, inner) = INNER_MENUS.iter().find(|(menu, _)| *menu == outer)?;
@@ -46,6 +62,9 @@ impl Session {
     /// Hands back the error of a command; where the command would have opened a menu, and the run goes on, its place is
     /// taken by a menu that passes over what follows.
     pub(super) fn refuse(&mut self, command: &Command, words: &[Word], error: Box<Diagnostic>) -> Box<Diagnostic> {
+        if !self.interactive && SURFACE_RECORDS.contains(&command.spec.name) {
+            commands::keep_refused_surface(&mut self.job, command.spec.name, error.span.unwrap_or_default());
+        }
         let settings = &self.job.settings;
         let last = settings.batch
             || self.errors - self.errors_of_absent + 1 >= settings.error_limit
@@ -136,13 +155,13 @@ impl Session {
     fn answer_missing_macro(&mut self, first: &Word) -> Outcome<Effect> {
         let record = first.text.to_ascii_uppercase();
         let of = self.job.missing_libraries.join(" or ");
-        let known = self.job.model.unmodelled_effects(SolveKind::Statics).iter().any(|kept| kept.record == record);
+        let known = self.job.model.unmodelled_effects(SolveKind::Hydrostatics).iter().any(|kept| kept.record == record);
         if known {
             return Ok(Effect::Done);
         }
         let effect = format!("a macro of {of}, which was not found");
         self.job.warn(format!("{record} is taken for {effect}; solves will stop (said once)"), first.span);
-        let (matters_to, span) = (SolveKind::Statics, first.span);
+        let (matters_to, span) = (SolveKind::Hydrostatics, first.span);
         self.job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
         Ok(Effect::Done)
     }

@@ -8,6 +8,7 @@ mod common;
 mod program {
     mod absent_records;
     mod command_line;
+    mod consequences;
     mod disk_full;
     mod editor;
     mod file_names;
@@ -21,6 +22,7 @@ mod program {
     mod manual_blocks;
     mod menus;
     mod moses_records;
+    mod moses_status;
     mod names;
     mod never_panics;
     mod picture;

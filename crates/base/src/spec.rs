@@ -129,6 +129,8 @@ impl ValueSpec {
 /// What a solver finds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SolveKind {
+    /// Weight and buoyancy alone: the hydrostatics of a body.
+    Hydrostatics,
     /// Forces and rest.
     Statics,
     /// Motions: modes, the frequency domain, the time domain.

@@ -39,6 +39,7 @@ pub struct Tank {
     fraction: f64,
     /// Share that cannot be pumped out and has no free surface.
     residual: f64,
+    maximum: f64,
     /// Density of the liquid (kg/m3).
     density: f64,
     surface: FreeSurface,
@@ -113,6 +114,7 @@ impl Tank {
             capacity,
             fraction: contents.fraction,
             residual: compartment.residual,
+            maximum: compartment.maximum,
             density: contents.density,
             surface: contents.surface,
             is_flooded: contents.is_flooded,
@@ -426,7 +428,8 @@ pub fn balance_tanks(tanks: &[Tank], pose: &Pose, rest: &Six) -> Result<Vec<f64>
     if !(-1e-9..=1.0 + 1e-9).contains(&wanted) {
         return Err(none());
     }
-    let mut shares = vec![wanted.clamp(0.0, 1.0); tanks.len()];
+    let limits: Vec<[f64; 2]> = tanks.iter().map(|tank| [tank.residual.min(tank.maximum), tank.maximum]).collect();
+    let mut shares: Vec<f64> = limits.iter().map(|[least, most]| wanted.clamp(*least, *most)).collect();
     for _ in 0..MAX_BALLAST_ITERATIONS {
         let mut left = SVector::<f64, 3>::new(rest[2], rest[3], rest[4]);
         let mut slopes = Vec::with_capacity(tanks.len());
@@ -463,8 +466,8 @@ pub fn balance_tanks(tanks: &[Tank], pose: &Pose, rest: &Six) -> Result<Vec<f64>
                 .map(|(slope, held)| if *held { 0.0 } else { (slope.component_mul(&scale) / whole).dot(&multipliers) })
                 .collect();
             let mut are_all_within = true;
-            for ((share, change), held) in shares.iter().zip(&change).zip(&mut held) {
-                let is_beyond = (*share <= 0.0 && *change < 0.0) || (*share >= 1.0 && *change > 0.0);
+            for (((share, change), held), [least, most]) in shares.iter().zip(&change).zip(&mut held).zip(&limits) {
+                let is_beyond = (share <= least && *change < 0.0) || (share >= most && *change > 0.0);
                 are_all_within &= *held || !is_beyond;
                 *held |= is_beyond;
             }
@@ -472,8 +475,8 @@ pub fn balance_tanks(tanks: &[Tank], pose: &Pose, rest: &Six) -> Result<Vec<f64>
                 break change;
             }
         };
-        for (share, change) in shares.iter_mut().zip(change) {
-            *share = (*share + change).clamp(0.0, 1.0);
+        for ((share, change), [least, most]) in shares.iter_mut().zip(change).zip(&limits) {
+            *share = (*share + change).clamp(*least, *most);
         }
     }
     Err(none())

@@ -76,6 +76,8 @@ pub enum Opens {
     AtMostElse(&'static MenuSpec, usize, &'static MenuSpec),
     /// This menu when it has this option, in full or not.
     WithOption(&'static MenuSpec, &'static OptionSpec),
+    /// This menu when it has the one option or the other, in full or not.
+    WithEither(&'static MenuSpec, [&'static OptionSpec; 2]),
     /// This menu when at most this many words stand between the command and its first option; with more it is
     /// complete in itself.
     Short(&'static MenuSpec, usize),
@@ -108,6 +110,8 @@ pub struct CommandSpec {
     pub options: &'static [OptionSpec],
     /// Options of other programs that are not offered, each with why: asked for, they are refused with that.
     pub absent: &'static [(&'static str, &'static str)],
+    /// Which solves stop behind the record for lack of what it asks for, and until when; empty: it acts.
+    pub stops: &'static str,
     /// One line of help.
     pub help: &'static str,
     /// More help: readings, conventions, what is checked.
@@ -130,6 +134,7 @@ impl CommandSpec {
             interleaved: false,
             options: &[],
             absent: &[],
+            stops: "",
             help,
             detail: "",
             example: "",

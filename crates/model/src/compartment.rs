@@ -17,6 +17,8 @@ pub struct Compartment {
     pub sounding_tube: Option<[String; 2]>,
     /// Share of its volume that can not be pumped out, and that has no free surface.
     pub residual: f64,
+    /// Share of its volume that it is filled to at most, but for the sea; 1 where nothing is said.
+    pub maximum: f64,
     /// Its holes.
     pub holes: Vec<String>,
     /// What is in it.

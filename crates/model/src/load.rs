@@ -154,6 +154,8 @@ pub struct Multipliers {
     pub parts: IndexMap<String, f64>,
     /// Of attributes of load categories; of several that fit the last counts.
     pub attributes: Vec<AttributeMultiplier>,
+    /// Margins of the weights of load categories, as factors, beside their multipliers; of several that fit the last counts.
+    pub margins: Vec<AttributeMultiplier>,
 }
 
 impl Multipliers {
@@ -179,7 +181,8 @@ impl Model {
                     None => matches(&rule.categories, category),
                 }
         };
-        self.multipliers.attributes.iter().rev().find(fits).map_or(1.0, |rule| rule.factor)
+        let last = |rules: &[AttributeMultiplier]| rules.iter().rev().find(fits).map_or(1.0, |rule| rule.factor);
+        last(&self.multipliers.attributes) * last(&self.multipliers.margins)
     }
 
     /// The multiplier of an attribute of a load: that of its load group or part times that of its category.

@@ -142,6 +142,7 @@ impl System {
     /// # Errors
     /// The connector or body that makes no part of it, and why.
     pub fn new(model: &Model, left_out: &[String]) -> Result<Self, SolveError> {
+        model.check_effects(SolveKind::Statics).map_err(SolveError::new)?;
         let node = |(key, body): (&String, &Body)| {
             let floating = Floating::at_rest(model, body).map_err(SolveError::error_about(&body.name))?;
             Ok(SystemBody::new(model, key, body, floating))
@@ -155,6 +156,7 @@ impl System {
     /// # Errors
     /// As [`System::new`].
     pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: RunRequirements) -> Result<Self, SolveError> {
+        model.check_effects(SolveKind::Statics).map_err(SolveError::new)?;
         let nodes = moving_nodes(model, sea)?;
         System::build(model, (nodes, sea), &[], duties)
     }
@@ -165,7 +167,6 @@ impl System {
         left_out: &[String],
         duties: RunRequirements,
     ) -> Result<Self, SolveError> {
-        model.check_effects(SolveKind::Statics).map_err(SolveError::new)?;
         let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();
         let mut links: Vec<Link> = Vec::new();

@@ -10,6 +10,7 @@ mod names;
 mod point;
 
 use crate::commands::job::{Checking, UserFile};
+use crate::commands::settings::name_list;
 use crate::commands::{COMMANDS, Job};
 use crate::report::format::fifteen_figures;
 use windlass_base::choice::Choice;
@@ -84,20 +85,37 @@ pub const FUNCTION_HELP: &[(&str, &str, &str)] = &[
     (
         "&NAMES",
         "&NAMES(KIND [pattern])",
-        "BODIES PARTS POINTS NODES CLASSES CONNECTORS CURVES ENVIRONMENTS SELECTORS PIECES COMPARTMENTS DMARKS ASSEMBLIES, in the plural or the singular, that \
-         fit a pattern or selector",
+        "BODIES PARTS POINTS NODES CLASSES CONNECTORS ELEMENTS CURVES ENVIRONMENTS SELECTORS PIECES COMPARTMENTS HOLES DMARKS SENSORS ASSEMBLIES \
+         LOAD_GROUPS CATEGORIES PROCESSES SHAPES, in the plural or the singular, that fit a pattern or selector; PI_VIEWS are not kept: no names",
+    ),
+    (
+        "&VARIABLE",
+        "&VARIABLE(-WHILE <DATABASE>NAME pattern VAR)",
+        "puts the next word of a list of &VARIABLE that fits a pattern or selector into VAR: .FALSE. while there is one, else .TRUE.",
     ),
     (
         "&GET",
         "&GET(prompt)",
         "what the user types at the terminal; of a script that runs by itself the next line of standard input: \
-         `printf 'YES\\n' | windlass job.cif`",
+         `printf 'YES\\n' | windlass job.cif`; where there is none the value is empty, and one error says so",
     ),
     ("&F_READ", "&F_READ(TYPE VAR)", "reads a line of the file of &FILE USE into VAR; .TRUE. at its end"),
 ];
 
-const NAMES: &[&str] =
-    &["INFO", "POINT", "BODY", "PART", "CONNECTOR", "ELEMENT", "COMPARTMENT", "ENV", "NAMES", "GET", "F_READ"];
+const NAMES: &[&str] = &[
+    "INFO",
+    "POINT",
+    "BODY",
+    "PART",
+    "CONNECTOR",
+    "ELEMENT",
+    "COMPARTMENT",
+    "ENV",
+    "NAMES",
+    "VARIABLE",
+    "GET",
+    "F_READ",
+];
 
 /// Functions of what is typed or read, which a check of a script does not know.
 const OF_INPUT: &[&str] = &["GET", "F_READ"];
@@ -133,14 +151,17 @@ impl FunctionHost for Job {
         }
         if name == "GET" {
             let prompt: Vec<&str> = words.iter().map(|w| w.text.as_ref()).collect();
-            let ask = self.ask.as_ref().ok_or_else(|| Diagnostic::error("&GET needs somebody to ask", span))?;
-            return ask(&prompt.join(" ")).ok_or_else(|| {
-                Diagnostic::error("&GET got no answer", span)
-                    .help("in batch each &GET takes a line of standard input: `printf 'YES\\n' | windlass job.cif`")
-            });
+            if let Some(answer) = self.ask.as_ref().and_then(|ask| ask(&prompt.join(" "))) {
+                return Ok(answer);
+            }
+            self.say_unanswered(span);
+            return Ok(String::new());
         }
         if name == "F_READ" {
             return f_read(self, words, span);
+        }
+        if name == "VARIABLE" {
+            return name_list::next_name(self, words, span);
         }
         let Some((action, rest)) = words.split_first() else {
             let form = FUNCTION_HELP.iter().find(|h| h.0.get(1..) == Some(name)).map_or("", |h| h.1);
@@ -171,6 +192,17 @@ impl FunctionHost for Job {
 
     fn assignments(&mut self) -> Vec<(String, String)> {
         std::mem::take(&mut self.assignments)
+    }
+}
+
+impl Job {
+    /// Says once that a `&GET` has nobody to ask: the script goes on with an empty answer, and the run counts an error.
+    fn say_unanswered(&mut self, span: Span) {
+        if !std::mem::replace(&mut self.unanswered, true) {
+            let said = Diagnostic::error("&GET got no answer: the script goes on with an empty one (said once)", span)
+                .help("in batch each &GET takes a line of standard input: `printf 'YES\\n' | windlass job.cif`");
+            self.notices.push(*said);
+        }
     }
 }
 

@@ -92,15 +92,23 @@ const LOAD_GROUP: OptionSpec =
     OptionSpec::new("-LOAD_GROUP", GROUPS, "multipliers of load groups; each body and part has one of its name")
         .repeating(1)
         .many();
+const MARGIN: OptionSpec = OptionSpec::new(
+    "-MARGIN",
+    &[ValueSpec::new("WORD", Kind::Item, "a selector of load categories and a percent, in turn")],
+    "what is added to the weights of load categories, in percent whatever the values of other options are",
+)
+.repeating(1)
+.many();
 
 static SPEC: CommandSpec = CommandSpec {
-    options: &[FRACTION, PERCENT, CATEGORY_OPTION, FORCE, LOAD_GROUP],
+    options: &[FRACTION, PERCENT, CATEGORY_OPTION, FORCE, LOAD_GROUP, MARGIN],
     detail: "Each record sets multipliers anew; a load has the product of that of its force category, of its load group and of its load category: 0.5 of \
              two leave a quarter. -CATEGORY names load categories (-CATEGORY of #WEIGHT, #AREA ..; EXTRA where none was given) by a name, a \
              pattern or a selector, and attributes: #DEAD weights, with their inertia, #BUOY the buoyancy of #BUOY and of members, with the pressure of waves on them, #WIND, #DRAG current, linear drag and damping, \
              #AMASS added mass; a value without attribute is that of all. BEAM and PLATE are of category STR_MODEL, TUBE of EXTRA, unless their records say; hulls of other pieces are of none. Of several that fit a load the last counts. -FORCE acts on all wind \
              (WIND), current (V_DRAG) or mean wave drift (W_DRIFT). -CATEGORY WIND 50 is read as -FORCE WIND 50. A load group \
-             multiplies its weights too; that of a part its members. A -FORCE of a #SET, which no record here defines, stops the next solve unless it is 0. -PERCENT @ 100 sets all load groups.",
+             multiplies its weights too; that of a part its members. A -FORCE of a #SET, which no record here defines, stops the next solve unless it is 0. -PERCENT @ 100 sets all load groups. -MARGIN STR@ 6 adds 6 % to the weights of the \
+             categories that fit, for mill tolerance and weld metal, beside their multipliers (our reading).",
     example: "MEDIT\n&DESCRIBE BODY TBRG\n*CG 200 0 8\n#WEIGHT *CG 100 -CATEGORY STEEL\nEND\n\
               &APPLY -PERCENT -CATEGORY @ #DEAD 110 #BUOY 100 -CATEGORY STEEL #DEAD 105 #BUOY 100\n\
               &APPLY -PERCENT -FORCE WIND 50 -LOAD_GROUP TBRG 120\n&STATUS LOADS",
@@ -182,6 +190,23 @@ fn set_categories(made: &mut Multipliers, given: &Given, unit: f64) -> Outcome<(
     Ok(())
 }
 
+/// Pairs of a selector of load categories and a percent of their weights.
+fn set_margins(made: &mut Multipliers, given: &Given) -> Outcome<()> {
+    for pair in given.values.chunks(2) {
+        let [name, value] = pair else {
+            let lacking = pair.first().map_or(given.span, |v| v.span);
+            return Err(Diagnostic::error("a load category of -MARGIN lacks its percent", lacking));
+        };
+        let factor = 1.0 + multiplier(value, 0.01)?;
+        if factor < 0.0 {
+            return Err(Diagnostic::error("a margin below -100 % leaves a negative weight", value.span));
+        }
+        let categories = Model::key(name.word().unwrap_or_default());
+        made.margins.push(AttributeMultiplier { categories, attribute: Some(Attribute::Dead), factor });
+    }
+    Ok(())
+}
+
 /// Whether a category, a pattern or a selector chooses a category of a load, or is that of a force.
 fn is_known(model: &Model, word: &str) -> bool {
     if LoadCategory::from_word(&Model::key(word)).is_some() {
@@ -210,10 +235,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if args.options.iter().any(|given| given.is(&CATEGORY_OPTION)) {
         made.attributes.clear();
     }
+    if args.has(&MARGIN) {
+        made.margins.clear();
+    }
     let mut sets = Vec::new();
     for given in &args.options {
         match given {
             _ if given.is(&CATEGORY_OPTION) => set_categories(&mut made, given, unit)?,
+            _ if given.is(&MARGIN) => set_margins(&mut made, given)?,
             _ if given.is(&FORCE) => {
                 let value = given.number(const { FORCE.number("VALUE") }).unwrap_or_default();
                 let word = given.first_word().unwrap_or_default();
@@ -232,10 +261,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         job.model.unmodelled.retain(|kept| kept.record != record);
         if value != 0.0 {
             let effect = "a set of forces on points".to_string();
-            job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to: SolveKind::Statics, span });
+            let kept = UnmodelledEffect { record, effect, matters_to: SolveKind::Statics, span };
+            job.warn(format!("not computed: {}; solves it matters to will stop", kept.sentence()), span);
+            job.model.keep_unmodelled(kept);
         }
     }
-    for given in args.options.iter().filter(|given| given.is(&CATEGORY_OPTION)) {
+    for given in args.options.iter().filter(|given| given.is_any(&[CATEGORY_OPTION, MARGIN])) {
         if let Some(word) = given.first_word().filter(|word| *word != "@" && !is_known(&job.model, word)) {
             job.warn(format!("no load is of category {word}: its multipliers wait for one"), given.first_place());
         }

@@ -56,6 +56,12 @@ const MINIMUM: OptionSpec = OptionSpec::new(
     ],
     "of a compartment: what cannot be pumped out; it has no free surface",
 );
+const MAXIMUM: OptionSpec = OptionSpec::new(
+    "-MAXIMUM",
+    &[number("PERC", Dim::None, "percent of its volume").in_range(0.0, 100.0)],
+    "of a compartment: what it is filled to at most (our reading)",
+)
+.default("100");
 const HOLES: OptionSpec =
     OptionSpec::new("-HOLES", &[ValueSpec::new("HOLE", Kind::Text, "a hole")], "of a compartment: its holes")
         .repeating(1);
@@ -71,11 +77,22 @@ const HOLE_FRICTION: OptionSpec = OptionSpec::new(
     &[number("F", Dim::None, "factor").not_negative()],
     "of a hole: its friction factor, listed alone",
 );
+const HOLE_NORMAL: OptionSpec = OptionSpec::new(
+    "-NORMAL",
+    &[
+        number("NX", Dim::None, "X of its normal"),
+        number("NY", Dim::None, "Y").or("0"),
+        number("NZ", Dim::None, "Z").or("0"),
+    ],
+    "of a hole: the way it looks, which matters to a flow in time alone",
+)
+.without_effect();
 
 /// What a compartment and a hole take.
-pub(super) const OWN: [OptionSpec; 7] = [DESCRIPTION, S_TUBE, MINIMUM, HOLES, HOLE_POINT, HOLE_AREA, HOLE_FRICTION];
+pub(super) const OWN: [OptionSpec; 9] =
+    [DESCRIPTION, S_TUBE, MINIMUM, MAXIMUM, HOLES, HOLE_POINT, HOLE_AREA, HOLE_FRICTION, HOLE_NORMAL];
 /// What of it a hole takes.
-pub(super) const OF_HOLE: [OptionSpec; 3] = [HOLE_POINT, HOLE_AREA, HOLE_FRICTION];
+pub(super) const OF_HOLE: [OptionSpec; 4] = [HOLE_POINT, HOLE_AREA, HOLE_FRICTION, HOLE_NORMAL];
 
 choices! {
     /// Sorts of holes.
@@ -95,7 +112,8 @@ choices! {
 pub(super) fn describe(job: &mut Job, args: &Args, name: &str, span: Span) -> Outcome<()> {
     let part = piece::current_part(&job.model, span)?.name.clone();
     if Model::key(&part) == GROUND {
-        return Err(Diagnostic::error("a compartment belongs to a body, and none is described yet", span));
+        return Err(Diagnostic::error("a compartment belongs to a body, and none is described yet", span)
+            .help("&DESCRIBE BODY describes one"));
     }
     let key = Model::key(name);
     if let Some(exterior) = job.model.parts.get(&key).map(|p| p.name.clone()) {
@@ -135,6 +153,7 @@ pub(super) fn describe(job: &mut Job, args: &Args, name: &str, span: Span) -> Ou
         description: String::new(),
         sounding_tube: None,
         residual: 0.0,
+        maximum: 1.0,
         holes: Vec::new(),
         contents: empty,
         span,
@@ -152,6 +171,14 @@ pub(super) fn describe(job: &mut Job, args: &Args, name: &str, span: Span) -> Ou
         if let Some(gravity) = given.number(const { MINIMUM.number("SPGR") }) {
             made.contents.density = FRESH_WATER * gravity;
         }
+    }
+    if let Some(given) = args.option(&MAXIMUM) {
+        made.maximum = 0.01 * given.first_number().unwrap_or(100.0);
+    }
+    if made.maximum < made.residual || made.contents.fraction > made.maximum {
+        let at = args.option(&MAXIMUM).map_or(span, |given| given.span);
+        let text = format!("-MAXIMUM of compartment {name} is less than what is in it, or than its -MINIMUM");
+        return Err(Diagnostic::error(text, at));
     }
     piece::finish_piece(job);
     let model = &mut job.model;
@@ -229,7 +256,14 @@ const APP_NONE: OptionSpec =
     OptionSpec::new("-APP_NONE", FOLLOWING, "the liquid turns with the body as it lies upright: no free surface")
         .repeating(1)
         .many();
-const FULL: OptionSpec = OptionSpec::new("-FULL", CHOSEN, "fills compartments").repeating(1).many();
+const FULL: OptionSpec = OptionSpec::new("-FULL", CHOSEN, "fills compartments, to their -MAXIMUM").repeating(1).many();
+const MOST: OptionSpec = OptionSpec::new(
+    "-MAXIMUM",
+    &[ValueSpec::new(":SEL", Kind::Item, "compartments and the percent they are filled to at most; in turn")],
+    "what compartments are filled to at most, as -MAXIMUM of &DESCRIBE COMPARTMENT (our reading)",
+)
+.repeating(1)
+.many();
 const PERCENT: OptionSpec =
     OptionSpec::new("-PERCENT", AMOUNTS, "contents as percent of the volume").repeating(1).many();
 const FRACTION: OptionSpec =
@@ -243,7 +277,7 @@ const ULLAGE: OptionSpec =
     OptionSpec::new("-ULLAGE", AMOUNTS, "contents by the length of the sounding tube that is dry").repeating(1).many();
 
 static SPEC: CommandSpec = CommandSpec {
-    options: &[FLOOD, NO_FLOOD, CORRECT, APP_NONE, FULL, PERCENT, FRACTION, AMOUNT, SOUNDING, ULLAGE],
+    options: &[FLOOD, NO_FLOOD, CORRECT, APP_NONE, FULL, MOST, PERCENT, FRACTION, AMOUNT, SOUNDING, ULLAGE],
     absent: &[
         (
             "-DYNAMIC",
@@ -263,7 +297,8 @@ static SPEC: CommandSpec = CommandSpec {
              that of the sea when the compartment was described. -SOUNDING and -ULLAGE are read in the attitude the body has. The default is -CORRECT: \
              level and centre are exact in any attitude. Contents are constant; in TDOM their surface is level at every instant (quasi-static), their \
              inertia that of where they lie when the run begins, and nothing sloshes. What lies below -MINIMUM of a compartment stays in it. The flags \
-             -CORRECT and -APP_NONE stand alone before the options they rule, or name compartments themselves. Our reading: -FULL sets 100 %.",
+             -CORRECT and -APP_NONE stand alone before the options they rule, or name compartments themselves. Our reading: -FULL sets 100 %, or the -MAXIMUM, which no amount \
+             and no &CMP_BAL exceeds; the sea of -FLOOD does.",
     example: "&DESCRIBE BODY TBRG\nMEDIT\nPGEN\nPLANE 0 400 -RECT 0 20 100\nEND\n&DESCRIBE COMPARTMENT 1P -DESCRIPTION 'wing tank'\nPGEN -PERM -0.98 -STBD\n\
               PLANE 10 60 -CART 20 1 49 1 49 19 20 19\nEND\nEND\n&WEIGHT -TOTAL TBRG 20000 200 0 12 38 118 120\n&INSTATE -CONDITION 9\n\
               &COMPARTMENT -CORRECT -PERCENT @ 0 1P 50 1.0255\n&STATUS COMPARTMENT",
@@ -319,9 +354,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             }
             _ if given.is(&FULL) => {
                 for key in all_chosen(&job.model, given)? {
-                    fill(job, &key, Amount { fraction: 1.0, density: None, surface, span: given.span })?;
+                    let fraction = job.model.compartments.get(&key).map_or(1.0, |tank| tank.maximum);
+                    fill(job, &key, Amount { fraction, density: None, surface, span: given.span })?;
                 }
             }
+            _ if given.is(&MOST) => set_maxima(job, given)?,
             _ => set_amounts(job, given, surface)?,
         }
     }
@@ -348,6 +385,14 @@ fn fill(job: &mut Job, key: &str, amount: Amount) -> Outcome<()> {
         .help("0 to 100 %"));
     }
     let asked = amount.fraction.clamp(0.0, 1.0);
+    if asked > tank.maximum * (1.0 + 1e-9) {
+        let [percent, most] = [asked, tank.maximum].map(|share| eight_figures(100.0 * share));
+        return Err(Diagnostic::error(
+            format!("{percent} % of compartment {name} is more than its -MAXIMUM of {most} %"),
+            amount.span,
+        )
+        .help("&COMPARTMENT -MAXIMUM :SEL PERC sets another"));
+    }
     tank.contents = TankContents {
         fraction: asked.max(tank.residual),
         density: amount.density.unwrap_or(tank.contents.density),
@@ -357,6 +402,29 @@ fn fill(job: &mut Job, key: &str, amount: Amount) -> Outcome<()> {
     if asked < tank.residual {
         let percent = eight_figures(100.0 * tank.residual);
         job.remark(format!("{percent} % stays in compartment {name}: its -MINIMUM"), amount.span);
+    }
+    Ok(())
+}
+
+/// Pairs of a selector and the percent that its compartments are filled to at most.
+fn set_maxima(job: &mut Job, given: &Given) -> Outcome<()> {
+    for pair in given.values.chunks(2) {
+        let [name, value] = pair else {
+            let lacking = pair.first().map_or(given.span, |v| v.span);
+            return Err(Diagnostic::error("-MAXIMUM takes compartments and a percent, in turn", lacking));
+        };
+        let percent = value.word().and_then(|word| evaluate(word).ok()).filter(|p| (0.0..=100.0).contains(p));
+        let Some(most) = percent.map(|p| 0.01 * p) else {
+            return Err(Diagnostic::error("-MAXIMUM must be a percent from 0 to 100", value.span));
+        };
+        for key in choose_compartments(&job.model, name)? {
+            let Some(tank) = job.model.compartments.get_mut(&key) else { continue };
+            if most < tank.residual || tank.contents.fraction > most * (1.0 + 1e-9) {
+                let text = format!("compartment {} holds more than this, or its -MINIMUM is more", tank.name);
+                return Err(Diagnostic::error(text, value.span));
+            }
+            tank.maximum = most;
+        }
     }
     Ok(())
 }
@@ -446,7 +514,7 @@ static BALANCE_SPEC: CommandSpec = CommandSpec {
     ],
     repeat: 1,
     detail: "Fills the compartments named so that weight, contents and buoyancy balance at the present draft, roll and trim. At least three are needed, \
-             and four as a rule: to port and starboard, fore and aft. Of all contents that do, those are taken that differ least from the same \
+             and four as a rule: to port and starboard, fore and aft. Of all contents between -MINIMUM and -MAXIMUM that do, those are taken that differ least from the same \
              percentage of all. What is in other compartments stays. Connectors, wind and current are left out. A compartment keeps the density \
              of its liquid; it is closed, with a level surface.",
     example: "&DESCRIBE BODY TBRG\nMEDIT\nPGEN\nPLANE 0 400 -RECT 0 20 100\nEND\n&DESCRIBE COMPARTMENT 1P\nPGEN -STBD\nPLANE 10 190 -CART 1 1 49 1 49 19 1 19\nEND\n\
@@ -501,12 +569,6 @@ fn balance(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let shares = balance_tanks(&tanks, &pose, &rest).map_err(|e| to_error(job, e))?;
     for (key, share) in keys.iter().zip(shares) {
         let Some(tank) = job.model.compartments.get_mut(key) else { continue };
-        if share < tank.residual {
-            return Err(Diagnostic::error(
-                format!("compartment {} would have to hold less than its -MINIMUM", tank.name),
-                args.span,
-            ));
-        }
         tank.contents.fraction = share;
         tank.contents.is_flooded = false;
         tank.contents.surface = FreeSurface::Level;

@@ -13,6 +13,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro::structure::{BeamPlace, MemberCoefficients, StructuralElement, build_beam, build_plate};
 use windlass_language::name as rule;
+use windlass_language::number::evaluate;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{
     Class, Defaults, ElementOf, Model, Parameters, Part, Piece, STR_MODEL, SolveKind, UnmodelledEffect, WaveAction,
@@ -334,9 +335,26 @@ fn make_plate(job: &mut Job, record: &DeferredElement, of: StatedElement, nodes:
 /// Reads one direction or two.
 ///
 /// # Errors
-/// Another number of components.
+/// Another number of components, a word that is neither an axis nor a number.
 pub fn set_directions(directions: &mut [[f64; 3]; 2], given: &Given) -> Outcome<()> {
-    match given.numbers().as_slice() {
+    let mut components = Vec::new();
+    for value in &given.values {
+        if let Some(component) = value.number() {
+            components.push(component);
+            continue;
+        }
+        let word = value.word().unwrap_or_default();
+        match word.to_ascii_uppercase().as_str() {
+            "X" => components.extend([1.0, 0.0, 0.0]),
+            "Y" => components.extend([0.0, 1.0, 0.0]),
+            "Z" => components.extend([0.0, 0.0, 1.0]),
+            _ => components.push(evaluate(word).map_err(|e| {
+                let text = format!("V of {} must be X, Y or Z, or a number", given.name());
+                Diagnostic::error(text, value.span).label(e.to_string())
+            })?),
+        }
+    }
+    match components.as_slice() {
         [a, b, c] => directions[0] = [*a, *b, *c],
         [a, b, c, d, e, f] => *directions = [[*a, *b, *c], [*d, *e, *f]],
         other => {
@@ -352,7 +370,7 @@ fn keep_missing(job: &mut Job, of: &StatedElement, what: &str) {
     let record = format!("{what} of class {}", of.class.word().unwrap_or_default());
     let effect = "weight, buoyancy, wind and drag of a shape without dimensions; &DATA SHAPES gives them".to_string();
     if !job.model.unmodelled.iter().any(|kept| kept.record == record) {
-        let (matters_to, span) = (SolveKind::Statics, of.class.span);
+        let (matters_to, span) = (SolveKind::Hydrostatics, of.class.span);
         job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
     }
 }
@@ -385,7 +403,7 @@ fn insert(
     if let Some(effect) = unread {
         let (record, effect) = (format!("class {class} of a {what}"), effect.to_string());
         if !job.model.unmodelled.iter().any(|kept| kept.record == record) {
-            let (matters_to, span) = (SolveKind::Statics, of.class.span);
+            let (matters_to, span) = (SolveKind::Hydrostatics, of.class.span);
             job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span });
         }
     }

@@ -105,6 +105,7 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
     detail: "Headings and periods are kept as those of RAO (and of &DEFAULT). A body with a database, of DATABASE or I_TOTAL, has what G_PRESSURE of MOSES \
              computes: that is said. For one without, motions stop with one error until it is given a database.",
     example: concat!(typed!(), "G_PRESSURE BALL -HEADING 180 -PERIOD 6 9\nEND\nFREQ_RESPONSE\nRAO\nEND"),
+    stops: "solves of motions stop until the body has a database, of I_TOTAL or DATABASE; headings and periods are kept for RAO",
     ..CommandSpec::new("G_PRESSURE", "hydrodynamic pressures of a body")
 };
 

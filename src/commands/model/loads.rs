@@ -312,6 +312,8 @@ const WIND_AREAS: OptionSpec = OptionSpec::ours(
     ],
     "areas that the coefficients of wind are for",
 );
+/// The form of `#TANKER` that acts.
+const TANKER_FORM: &str = "form: #TANKER SIZE *PT -FILE FILE -LBP L -DRAFT T -WIND_AREAS AT AL";
 /// What a row of the file of `#TANKER` is.
 const TANKER_ROW: &str = "HEADING CXW CYW CNW CXC CYC CNC, separated by commas: degrees that grow, three coefficients of wind, three of current";
 /// Most headings of a file.
@@ -321,18 +323,22 @@ static TANKER_SPEC: CommandSpec = CommandSpec {
     menus: MENUS,
     data: &[
         number("SIZE", Dim::None, "deadweight in thousands of tons, as MOSES has it: listed alone").positive(),
-        ValueSpec::new("*PT", Kind::Name(Noun::Point), "the point the moments are about: midship"),
+        ValueSpec::new("*PT", Kind::Name(Noun::Point), "the point the moments are about: midship")
+            .or("none, where there is no -FILE"),
     ],
     options: &[COEFFICIENT_FILE, LBP, TANKER_DRAFT, WIND_AREAS, SYMMETRIC, CATEGORY],
     detail: "Wind and current on a tanker by coefficients of your own, as [OCIMF-1994] defines them: wind FX = 1/2 rho CXW V^2 AT, FY = 1/2 rho CYW V^2 AL, \
              MZ = 1/2 rho CNW V^2 AL LBP; current FX = 1/2 rho CXC V^2 LBP T, FY likewise with CYC, MZ = 1/2 rho CNC V^2 LBP^2 T. windlass ships no \
              coefficients: OCIMF's are not free. The file has a row a heading: HEADING, CXW, CYW, CNW, CXC, CYC, CNC, separated by commas, after a line of heads or none. \
              Headings are directions the stream comes from and forces are in the axes of the part, as in #TABLE: with x aft 180 is a stream from ahead, and \
-             CXW is positive there. Coefficients of MOSES by SIZE alone are refused.",
+             CXW is positive there. Coefficients of MOSES by SIZE alone are not in windlass: without -FILE the next solve stops.",
     example: "&FILE OPEN C tanker.csv\n&FILE WRITE C 0,-0.9,0,0,-0.04,0,0\n&FILE WRITE C 90,0,-0.7,0.05,0,-0.6,0.02\n&FILE WRITE C 180,0.9,0,0,0.04,0,0\n&FILE CLOSE C\n\
               MEDIT\n&DESCRIBE BODY TANKER\n*MID 450 0 0\n#TANKER 150 *MID -FILE job.ans/tanker.csv -LBP 900 -DRAFT 50 -WIND_AREAS 13000 38000 -SYMMETRIC\nEND\n\
               &ENV -WIND 60 90 -CURRENT 2 180\n&STATUS LOADS",
-    ..CommandSpec::new("#TANKER", "wind and current on a tanker by coefficients of a file")
+    ..CommandSpec::new(
+        "#TANKER",
+        "wind and current on a tanker by coefficients of a file; without one the next solve stops",
+    )
 };
 
 static BUOY_SPEC: CommandSpec = CommandSpec {
@@ -389,7 +395,9 @@ fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKi
             (given.option.effect, given.first_number().is_some_and(|value| value != neutral(given)))
         {
             let (record, effect) = (format!("{} of {record}", option_as_written(given, job.units)), effect.to_string());
-            job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to, span: given.span });
+            let kept = UnmodelledEffect { record, effect, matters_to, span: given.span };
+            job.remark(format!("not computed: {}; solves it matters to will stop", kept.sentence()), given.span);
+            job.model.keep_unmodelled(kept);
         }
     }
     let category = weight::category_of(args);
@@ -439,14 +447,29 @@ fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const MIDSHIP: DatumKey<str> = TANKER_SPEC.word("*PT");
     let args = &call.args;
+    if !args.has(&COEFFICIENT_FILE) {
+        let size = args.number(const { TANKER_SPEC.number("SIZE") }).unwrap_or_default();
+        let record = format!("#TANKER {}", eight_figures(size));
+        let effect = "wind and current on a tanker, whose coefficients windlass does not ship".to_string();
+        let kept = UnmodelledEffect { record, effect, matters_to: SolveKind::Statics, span: args.span };
+        let said = format!("not computed: {}; solves it matters to will stop", kept.sentence());
+        let said = Diagnostic::warning(said, args.span).help(TANKER_FORM);
+        job.notices.push(*said.help(format!("a row of the file is {TANKER_ROW}: 0,-0.9,0,0,-0.04,0,0")));
+        job.model.keep_unmodelled(kept);
+        return Ok(Effect::Done);
+    }
+    if args.word(MIDSHIP).is_none() {
+        return Err(Diagnostic::error("#TANKER lacks its value *PT, the point the moments are about", args.span)
+            .help(TANKER_FORM));
+    }
     let position = place_of_point(job, args, args.word(MIDSHIP).unwrap_or_default(), args.position(MIDSHIP))?;
-    let lacking = [COEFFICIENT_FILE, LBP, TANKER_DRAFT, WIND_AREAS].into_iter().find(|option| !args.has(option));
+    let lacking = [LBP, TANKER_DRAFT, WIND_AREAS].into_iter().find(|option| !args.has(option));
     if let Some(option) = lacking {
         return Err(Diagnostic::error(
             format!("#TANKER lacks {}: windlass ships no coefficients of tankers", option.name),
             args.span,
         )
-        .help("form: #TANKER SIZE *PT -FILE FILE -LBP L -DRAFT T -WIND_AREAS AT AL")
+        .help(TANKER_FORM)
         .help(format!("a row of the file is {TANKER_ROW}: 0,-0.9,0,0,-0.04,0,0")));
     }
     let file = args.option(&COEFFICIENT_FILE).and_then(|given| given.values.first());

@@ -14,7 +14,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::Noun;
 use windlass_base::values::{Args, Given, Value};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec, join_options};
-use windlass_model::{Piece, Shape, bar_panels, box_panels};
+use windlass_model::{Model, Piece, Shape, SolveKind, UnmodelledEffect, bar_panels, box_panels};
 
 /// PGEN.
 pub static PGEN: Command = Command { spec: &PGEN_SPEC, edits: false, run: pgen };
@@ -216,12 +216,25 @@ pub struct Planes {
     sections: Vec<HullSection>,
     placing: Placing,
     span: Span,
+    /// A record of it was refused: it makes no surface, and its end says nothing more.
+    is_refused: bool,
 }
 
 impl Planes {
     /// Those of a piece whose sections or panels follow in a menu of BLOCK.
     pub fn of_block(piece: &str, placing: Placing, span: Span) -> Planes {
-        Planes { piece: PieceOfSections::Described(piece.to_string()), sections: Vec::new(), placing, span }
+        Planes {
+            piece: PieceOfSections::Described(piece.to_string()),
+            sections: Vec::new(),
+            placing,
+            span,
+            is_refused: false,
+        }
+    }
+
+    /// Remembers that one of its records was refused.
+    pub fn refuse(&mut self) {
+        self.is_refused = true;
     }
 
     /// Whether a section has been given.
@@ -252,7 +265,13 @@ fn pgen(job: &mut Job, call: &Call) -> Outcome<Effect> {
             PieceOfSections::New(Box::new(begun))
         }
     };
-    job.menus.push(Menu::Planes(Box::new(Planes { piece, sections: Vec::new(), placing, span: args.span })));
+    job.menus.push(Menu::Planes(Box::new(Planes {
+        piece,
+        sections: Vec::new(),
+        placing,
+        span: args.span,
+        is_refused: false,
+    })));
     Ok(Effect::Done)
 }
 
@@ -380,11 +399,40 @@ fn snap(size: f64) -> impl Fn(f64) -> f64 {
     move |x| if x.abs() < 1e-12 * size { 0.0 } else { x }
 }
 
+/// Takes away the piece of sections of which one was refused.
+fn drop_refused(job: &mut Job, planes: &Planes) {
+    let PieceOfSections::Described(name) = &planes.piece else { return };
+    for part in job.model.parts.values_mut() {
+        part.pieces.retain(|piece| Model::key(&piece.name) != Model::key(name));
+    }
+    job.model.current_piece = None;
+}
+
+/// What a refused record of a surface leaves in a script: hydrostatics and solves stop, without the errors that a hull or a compartment without
+/// its surface would give.
+pub fn keep_refused(job: &mut Job, record: &str, span: Span) {
+    let model = &job.model;
+    let Some(part) = model.current_part.as_ref().and_then(|name| model.parts.get(&Model::key(name))) else { return };
+    if !model.bodies.contains_key(&Model::key(&part.body)) {
+        return;
+    }
+    let of = model.current_compartment.as_ref().map_or(part.name.clone(), |name| format!("compartment {name}"));
+    let record = format!("{record} of {of}");
+    if model.unmodelled.iter().all(|kept| kept.record != record) {
+        let effect = "a surface, whose record was refused".to_string();
+        job.model.keep_unmodelled(UnmodelledEffect { record, effect, matters_to: SolveKind::Hydrostatics, span });
+    }
+}
+
 /// The end of PGEN: makes the panels.
 ///
 /// # Errors
 /// Fewer than two sections, or sections that enclose nothing.
 pub fn build(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
+    if planes.is_refused {
+        drop_refused(job, &planes);
+        return Ok(());
+    }
     let is_described = matches!(planes.piece, PieceOfSections::Described(_));
     let made = build_pieces(job, planes, at);
     if made.is_err() && is_described {
@@ -483,7 +531,7 @@ pub fn add_placed(job: &mut Job, piece: Piece, placing: Placing) -> Outcome<()> 
 /// # Errors
 /// As [`build`].
 pub fn finish_block(job: &mut Job, planes: Planes, at: Option<Span>) -> Outcome<()> {
-    if planes.has_sections() {
+    if planes.is_refused || planes.has_sections() {
         return build(job, planes, at);
     }
     let given = job.model.current_piece.as_ref().and_then(|name| job.model.piece(name));

@@ -263,7 +263,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                 }
                 made
             }
-            _ if given.is(&COMPUTE) => vec![compute_weight(job, given, &body)?],
+            _ if given.is(&COMPUTE) => {
+                let made = compute_weight(job, given, &body)?;
+                note_connectors(job, &body, given.span);
+                vec![made]
+            }
             _ if given.is(&DEFINE) => {
                 let at = given.numbers_or_zero(const { DEFINE.numbers(["X", "Y", "Z"]) });
                 let radii = given.numbers_or_zero(const { DEFINE.numbers(["KX", "KY", "KZ"]) });
@@ -313,6 +317,20 @@ fn in_own_part(job: &Job, body: &Body, at: Vector3<f64>, given: &Given) -> Outco
         return Err(Diagnostic::error(text, given.span).help("&DESCRIBE PART NAME -MOVE turns parts"));
     }
     Ok((at - Vector3::from(position.shift)).into())
+}
+
+/// Notes that what connectors exert on a body is left out of its weight.
+fn note_connectors(job: &mut Job, body: &Body, span: Span) {
+    let model = &job.model;
+    let is_on_body = |name: &String| {
+        let own = model.points.get(&Model::key(name)).and_then(|point| model.body_of(point));
+        own.is_some_and(|own| Model::key(&own.name) == Model::key(&body.name))
+    };
+    let count = model.connectors.values().filter(|c| c.active && c.points.iter().any(is_on_body)).count();
+    if count > 0 {
+        let of = crate::commands::count(count, "connector");
+        job.remark(format!("-COMPUTE leaves out {of} of {}: the weight balances the buoyancy alone", body.name), span);
+    }
 }
 
 /// The weight with which a body is in equilibrium where it floats.

@@ -252,6 +252,8 @@ fn is_angle(value: &Value) -> bool {
     value.word().is_some_and(|word| number::evaluate(word).is_ok())
 }
 
+const NOTHING: &str = "there is nothing to draw: no body and no connector";
+
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let args = &call.args;
     for given in args.options.iter().filter(|given| given.is_any(&IDLE)) {
@@ -300,7 +302,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         width: args.option_integer(&PIXELS).and_then(|n| i32::try_from(n).ok()).unwrap_or(USUAL_WIDTH),
     };
     let wrong = |error: PlotError| match error {
-        PlotError::Empty => Diagnostic::error("there is nothing to draw: no body and no connector", args.span)
+        PlotError::Empty => Diagnostic::error(NOTHING, args.span)
             .help("-INACTIVE NO leaves out what does not act; &STATUS counts what the model holds"),
         other => Diagnostic::error(other.to_string(), args.span),
     };
@@ -321,8 +323,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         None => {
             let (columns, lines) = job.plot_size();
-            let text = picture.terminal(columns, lines).map_err(wrong)?;
-            job.say(&text);
+            match picture.terminal(columns, lines) {
+                Ok(text) => job.say(&text),
+                // a picture of a script that makes surfaces alone: nothing is lost
+                Err(PlotError::Empty) => job.warn(NOTHING, args.span),
+                Err(other) => return Err(wrong(other)),
+            }
         }
     }
     for note in merge_remarks(&problems) {

@@ -43,6 +43,8 @@ pub static ST_CFORCE: Command = Command { spec: &ST_CFORCE_SPEC, edits: false, r
 pub static FR_FCARGO: Command = Command { spec: &FR_FCARGO_SPEC, edits: false, run: cargo };
 /// ST_FCARGO.
 pub static ST_FCARGO: Command = Command { spec: &ST_FCARGO_SPEC, edits: false, run: cargo_statistics };
+/// ST_CARGO, another name of MOSES for it.
+pub static ST_CARGO: Command = Command { spec: &ST_CARGO_SPEC, edits: false, run: cargo_statistics };
 
 const ENV: ValueSpec =
     ValueSpec::new("ENV", Kind::Name(Noun::Environment), "environment; with options it is defined anew by them")
@@ -70,7 +72,7 @@ const fn spec(name: &'static str, help: &'static str) -> CommandSpec {
         example: concat!(
             heaving!(),
             "RAO\nFR_CFORCE LINE\nREPORT\nEND\nFR_POINT *CG\nEND\nST_POINT -SEA ISSC 0 2 8\nREPORT\nEND\nST_CFORCE LINE\nREPORT\nEND\n\
-             FR_FCARGO 500 2 2 2\nREPORT\nEND\nST_FCARGO 500 2 2 2\nREPORT\nEND\nEND"
+             FR_FCARGO 500 2 2 2\nREPORT\nEND\nST_FCARGO 500 2 2 2\nREPORT\nEND\nST_CARGO 500 2 2 2\nEND\nEND"
         ),
         ..CommandSpec::new(name, help)
     }
@@ -120,6 +122,7 @@ static ST_FCARGO_SPEC: CommandSpec = CommandSpec {
     detail: IN_SEA,
     ..spec("ST_FCARGO", "statistics of the force of a cargo on its body")
 };
+static ST_CARGO_SPEC: CommandSpec = CommandSpec { name: "ST_CARGO", help: "as ST_FCARGO", ..ST_FCARGO_SPEC };
 
 /// A response in a sea, with the equations it was found with and the extreme its environment asks for.
 struct InSea {

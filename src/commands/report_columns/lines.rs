@@ -184,6 +184,23 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         ],
     },
     ReportColumns {
+        printed_by: "&STATUS SPREAD",
+        titles: &["Mooring Spread"],
+        columns: &[
+            column(
+                "Anchor: Direction",
+                ANGLE,
+                "horizontal direction from the first end to the second, from +X toward +Y",
+            ),
+            column("Anchor: Distance", LENGTH, "horizontal distance between the ends"),
+            column("First Seg.", LENGTH, "unstretched length of the first segment"),
+            column("Tension: Ten Top", FORCE, "tension at the end on the body"),
+            column("Tension: Horizontal", FORCE, "horizontal force of the line on the body"),
+            column("Tension: Max T/TB", NONE, "largest tension along the line over the break (MBL) of its segment"),
+            column("On Bottom: Unstretched", LENGTH, "unstretched length on the seabed"),
+        ],
+    },
+    ReportColumns {
         printed_by: "&STATUS G_CONNECTOR",
         titles: &["Connector Geometry"],
         columns: &[

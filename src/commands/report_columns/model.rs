@@ -98,6 +98,19 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         ],
     },
     ReportColumns {
+        printed_by: "&STATUS SEA_SPECTRUM, WIND_SPECTRUM -PLOT",
+        titles: &["Wave Spectrum@", "Gust Spectrum@"],
+        columns: &[column("Density", &[Dim::SpectralDensity, derived(0, 2, -1)], "spectral density at the frequency")],
+    },
+    ReportColumns {
+        printed_by: "&STATUS SEA_TSERIES, WIND_TSERIES",
+        titles: &["Wave Elevation@", "Wind Speed@"],
+        columns: &[
+            column("Elevation", LENGTH, "height of the surface above the mean level, at X = Y = 0"),
+            column("Speed", &[Dim::WindSpeed], "speed of the wind 10 m above the water"),
+        ],
+    },
+    ReportColumns {
         printed_by: "&STATUS CURVES",
         titles: &["Curve @", "Exponentials of Curve @"],
         columns: &[

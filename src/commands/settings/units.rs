@@ -5,14 +5,18 @@ use crate::commands::environment::probability::{self, PROBABILITY};
 use crate::commands::model::describe::PLACE;
 use crate::commands::model::element::set_directions;
 use crate::commands::{Call, Command, Effect, Job};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
+use windlass_base::span::Span;
 use windlass_base::spec::ValueKey;
 use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
+use windlass_base::values::Given;
+use windlass_language::number::evaluate;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
-use windlass_model::Coordinates;
+use windlass_model::{Coordinates, Model, find};
 
 /// &DIMEN.
 pub static DIMEN: Command = Command { spec: &DIMEN_SPEC, edits: false, run: dimen };
@@ -151,8 +155,20 @@ pub(crate) const CYLINDER: OptionSpec = OptionSpec::new("-CYLINDER", &[], "point
 pub(crate) const SPHERICAL: OptionSpec =
     OptionSpec::new("-SPHERICAL", &[], "points are given by radius, angle, angle above the plane");
 /// `-LOCATION`.
-pub(crate) const LOCATION: OptionSpec =
-    OptionSpec::new("-LOCATION", &PLACE, "points are given by x y z in a system that stands here in the part");
+pub(crate) const LOCATION: OptionSpec = OptionSpec::new(
+    "-LOCATION",
+    &[
+        PLACE[0],
+        PLACE[1],
+        PLACE[2],
+        ValueSpec::new("RX", Kind::Item, "roll (degrees), or *P1: from *P1 to *P2 is the local x").or("0"),
+        ValueSpec::new("RY", Kind::Item, "pitch, or *P2").or("0"),
+        ValueSpec::new("RZ", Kind::Item, "yaw, or *P3: the local y is on the side toward which *P3 to *P4 leads")
+            .or("0"),
+        ValueSpec::new("*P4", Kind::Item, "fourth of the points").or("none"),
+    ],
+    "points are given by x y z in a system that stands here in the part",
+);
 const PERIOD: OptionSpec =
     OptionSpec::new("-PERIOD", &[number("T", Dim::Time, "period").positive()], "periods of RAO where it gives none")
         .repeating(1);
@@ -176,15 +192,18 @@ const SP_ORIENT: OptionSpec = OptionSpec::new(
 .without_effect();
 const DIR_BEAM: OptionSpec = OptionSpec::new(
     "-DIR_BEAM",
-    &[number("V", Dim::None, "components in the part, of one direction or two")],
+    &[ValueSpec::new("V", Kind::Item, "X, Y or Z, or three components in the part; of one direction or two")],
     "local z of beams is in the plane of the beam and this direction; the second counts where a beam runs along the first",
 )
 .repeating(1)
 .default("0 0 1 1 0 0 (our reading)");
-const DIR_PLATE: OptionSpec =
-    OptionSpec::new("-DIR_PLATE", &[number("V", Dim::None, "component")], "axes of stresses in plates")
-        .repeating(1)
-        .without_effect();
+const DIR_PLATE: OptionSpec = OptionSpec::new(
+    "-DIR_PLATE",
+    &[ValueSpec::new("V", Kind::Item, "axis or component")],
+    "axes of stresses in plates",
+)
+.repeating(1)
+.without_effect();
 const AIR: OptionSpec =
     OptionSpec::new("-AIR", &[number("RHO", Dim::Density, "density").positive()], "density of air").owner(Owner::Ours);
 const GRAVITY: OptionSpec =
@@ -221,7 +240,8 @@ static DEFAULT_SPEC: CommandSpec = CommandSpec {
     ],
     absent: &[("-SN", "&REP_SELECT -SN and -C_SN of a class choose fatigue curves")],
     detail: "What holds where a record gives no value; &STATUS DEFAULTS lists all. Defaults hold for classes and points defined after. The angles \
-             of -LOCATION are roll, pitch and yaw, as of a part (our reading); the form with four points is not supported.",
+             of -LOCATION are roll, pitch and yaw, as of a part (our reading). Of -LOCATION X Y Z *P1 *P2 *P3 *P4 the local x leads from *P1 to *P2, the local z is normal to it and to the way from *P3 to *P4, as \
+             Z of &POINT(EULER_ANGLES ..) is (our reading).",
     example: "&DEFAULT -SAVE -EMODULUS 12000\n&STATUS DEFAULTS\n&DEFAULT -REMEMBER",
     ..CommandSpec::new("&DEFAULT", "sets defaults")
 };
@@ -236,8 +256,8 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let material = &mut defaults.material;
         match given {
             _ if given.is(&LOCATION) => {
-                let six = const { LOCATION.numbers(["X", "Y", "Z", "RX", "RY", "RZ"]) };
-                defaults.coordinates = Coordinates::Placed(Place::new(given.numbers_or_zero(six)));
+                let shift = given.numbers_or_zero(const { LOCATION.numbers(["X", "Y", "Z"]) });
+                defaults.coordinates = Coordinates::Placed(Place { shift, turn: turn_of_location(job, given)? });
             }
             _ if given.is(&PERIOD) => {
                 env::periods(given)?;
@@ -280,4 +300,47 @@ fn default(job: &mut Job, call: &Call) -> Outcome<Effect> {
     (job.model.defaults, job.model.wave_defaults, job.model.saved_defaults) = (defaults, waves, saved);
     remarks.into_iter().for_each(|(text, span)| job.remark(text, span));
     Ok(Effect::Done)
+}
+
+/// The turn of the system of -LOCATION (rad): of its angles, or that its four points give.
+///
+/// # Errors
+/// Words that are neither, points that give no axes.
+fn turn_of_location(job: &Job, given: &Given) -> Outcome<[f64; 3]> {
+    let words: Vec<(&str, Span)> = given.values.iter().filter_map(|v| Some((v.word()?, v.span))).collect();
+    if words.iter().all(|(word, _)| !word.starts_with('*')) {
+        let mut turn = [0.0; 3];
+        if let Some((word, span)) = words.get(turn.len()) {
+            return Err(Diagnostic::error(format!("-LOCATION takes three angles; `{word}` is one more"), *span));
+        }
+        for (angle, (word, span)) in turn.iter_mut().zip(&words) {
+            let value = evaluate(word).map_err(|e| {
+                Diagnostic::error("an angle of -LOCATION must be a number (degrees), or four points follow Z", *span)
+                    .label(e.to_string())
+            })?;
+            *angle = value.to_radians();
+        }
+        return Ok(turn);
+    }
+    let [p1, p2, p3, p4] = words.as_slice() else {
+        let text = format!("-LOCATION takes four points after Z, and {} are given", words.len());
+        return Err(Diagnostic::error(text, given.span).help("form: -LOCATION X Y Z *P1 *P2 *P3 *P4"));
+    };
+    let model = &job.model;
+    let way = |(from, _): &(&str, Span), (to, at): &(&str, Span), first: Span| -> Outcome<Vector3<f64>> {
+        let [from, to] = [find(&model.points, from, "point", first)?, find(&model.points, to, "point", *at)?];
+        if Model::key(&from.part) != Model::key(&to.part) {
+            return Err(Diagnostic::error(format!("{} and {} are of different parts", from.name, to.name), *at));
+        }
+        Ok(Vector3::from(to.at) - Vector3::from(from.at))
+    };
+    let no_axes =
+        || Diagnostic::error("these points give no axes: they coincide, or the two ways are parallel", given.span);
+    let x = way(p1, p2, p1.1)?.try_normalize(0.0).ok_or_else(no_axes)?;
+    let side = way(p3, p4, p3.1)?.try_normalize(0.0).ok_or_else(no_axes)?;
+    const LEAST_SINE: f64 = 1e-9;
+    let z = x.cross(&side).try_normalize(LEAST_SINE).ok_or_else(no_axes)?;
+    let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+    let (roll, pitch, yaw) = Rotation3::from_matrix_unchecked(axes).euler_angles();
+    Ok([roll, pitch, yaw])
 }

@@ -32,7 +32,8 @@ pub static HYDROSTATICS: StatusKind = StatusKind::new(
     "what bodies displace where they are, and their hydrostatic stiffness",
     |query, _| Ok(hydrostatics(query.model(), &query.fits(), query.job.units)),
 )
-.with_names(&[EntityKind::Body]);
+.with_names(&[EntityKind::Body])
+.also(&["DISPLACEMENT"]);
 
 /// Whether a body or part is chosen.
 type Fits<'a> = &'a dyn Fn(&str) -> bool;

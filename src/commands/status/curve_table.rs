@@ -8,12 +8,11 @@ use windlass_model::EntityKind;
 use windlass_model::{Curve, Model};
 
 /// `&STATUS CURVES`.
-pub static CURVES: StatusKind = StatusKind {
-    charts: |_, tables| Ok(tables.iter().filter(|table| chart(table)).cloned().collect()),
-    ..StatusKind::new("CURVES", "curves", |query, _| Ok(curves(query.model(), &query.fits())))
+pub static CURVES: StatusKind =
+    StatusKind::new("CURVES", "curves", |query, _| Ok(curves(query.model(), &query.fits())))
         .with_names(&[EntityKind::Curve])
-        .of_moses()
-};
+        .plotted(|_, tables| Ok(tables.iter().filter(|table| chart(table)).cloned().collect()))
+        .of_moses();
 
 /// What the title of a fit begins with.
 const FIT: &str = "Exponentials of Curve";

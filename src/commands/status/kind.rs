@@ -26,9 +26,12 @@ pub struct StatusKind {
     pub caveats: bool,
     /// Its tables; what a job has to report besides is added to the verdict.
     pub tables: fn(&Query, &mut Verdict) -> Outcome<Vec<Table>>,
-    /// What `-PLOT` draws of it, from its tables or anew.
-    pub charts: fn(&Query, &[Table]) -> Outcome<Vec<Table>>,
+    /// What `-PLOT` draws of it, from its tables or anew; `None`: it is not plotted.
+    pub charts: Option<ChartsOf>,
 }
+
+/// Makes the tables that `-PLOT` draws, from the tables of a kind or anew.
+pub type ChartsOf = fn(&Query, &[Table]) -> Outcome<Vec<Table>>;
 
 impl StatusKind {
     /// A kind of windlass' own that takes no names and is not plotted; fill in the rest with `..`.
@@ -38,7 +41,12 @@ impl StatusKind {
         tables: fn(&Query, &mut Verdict) -> Outcome<Vec<Table>>,
     ) -> Self {
         let (owner, aliases, names) = (Owner::Ours, &[], &[]);
-        StatusKind { name, aliases, owner, help, names, caveats: false, tables, charts: |_, _| Ok(Vec::new()) }
+        StatusKind { name, aliases, owner, help, names, caveats: false, tables, charts: None }
+    }
+
+    /// The same, drawn by `-PLOT`.
+    pub const fn plotted(self, charts: ChartsOf) -> Self {
+        StatusKind { charts: Some(charts), ..self }
     }
 
     /// The same, with the names of these sorts of things behind its word.

@@ -22,9 +22,11 @@ pub(crate) mod offsets;
 pub(crate) mod rod_status;
 pub(crate) mod sea_table;
 pub(crate) mod settings_table;
+pub(crate) mod spread;
 pub(crate) mod summary_menu;
 pub(crate) mod system;
 pub(crate) mod tether_status;
+pub(crate) mod time_series;
 pub(crate) mod wind_table;
 
 use crate::commands::menu;
@@ -32,7 +34,8 @@ use crate::commands::name_filter::{NameFilter, note_caveats, raise};
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, open_chosen_table, send};
 use crate::commands::status::kind::{Query, StatusKind};
 use crate::commands::verdict::Verdict;
-use crate::commands::{Call, Command, Effect, Job, absent};
+use crate::commands::{Call, Command, Effect, Job, Menu, absent};
+use crate::report::disposition::Disposition;
 use crate::report::page;
 use crate::report::plot::Chart;
 use windlass_base::choices;
@@ -78,6 +81,8 @@ static KINDS: &[&StatusKind] = &[
     &forces::F_CONNECTOR,
     &forces::FOUNDATION,
     &line_angles::LINE_ANGLES,
+    &spread::SPREAD,
+    &spread::DG_CONNECTOR,
     &system::SYSTEM,
     &body_status::FORCE,
     &buoyancy_weight::B_W,
@@ -92,6 +97,8 @@ static KINDS: &[&StatusKind] = &[
     &environment_table::ENVIRONMENT,
     &wind_table::WIND_SPECTRUM,
     &sea_table::SEA_SPECTRUM,
+    &time_series::SEA_TSERIES,
+    &time_series::WIND_TSERIES,
     &settings_table::RUN,
     &rod_status::ROD,
     &rod_status::ROD_MODES,
@@ -152,8 +159,12 @@ fn find_kind(name: &str) -> &'static StatusKind {
     KINDS.iter().find(|kind| kind.name == name).copied().unwrap_or(&model_tables::SUMMARY)
 }
 
-const PLOT: OptionSpec =
-    OptionSpec::new("-PLOT", &[], "plots curves, or the spectra of SEA_SPECTRUM and WIND_SPECTRUM");
+const PLOT: OptionSpec = OptionSpec::new(
+    "-PLOT",
+    &[],
+    "plots CURVES, the spectra of SEA_SPECTRUM and WIND_SPECTRUM, SEA_TSERIES, WIND_TSERIES or the lines of DG_CONNECTOR and ROD, \
+     and opens the disposition menu over the table of the first plot, as in MOSES",
+);
 /// `-NUMBER`.
 pub(crate) const NUMBER: OptionSpec = OptionSpec::new(
     "-NUMBER",
@@ -190,7 +201,7 @@ static SPEC: CommandSpec = CommandSpec {
         .or("all"),
     ],
     repeat: 1,
-    opens: Opens::WithOption(&menu::DISPOSITION, &DISPOSE),
+    opens: Opens::WithEither(&menu::DISPOSITION, [&DISPOSE, &PLOT]),
     options: &[PLOT, BRIEF, FORCE, body_status::ABOUT, NUMBER, SHAPE, AQWA, DISPOSE, HARD, BOTH, WIDE],
     detail: "Alone it counts what the model holds. ENVIRONMENT alone is the one in force, with a NAME the one kept \
              under it. LINE_TYPES lists the chains and ropes that -TYPE of a line \
@@ -269,7 +280,20 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         // what is dangerous stays
         tables.iter_mut().for_each(|table| table.notes.retain(|note| note.severity == Severity::Warning));
     }
-    let charts = if args.has(&PLOT) { (kind.charts)(&query, &tables)? } else { Vec::new() };
+    let charts = match (args.option(&PLOT), kind.charts) {
+        (None, _) => Vec::new(),
+        (Some(given), Some(charts)) => {
+            let charts = charts(&query, &tables)?;
+            if charts.is_empty() {
+                return Err(Diagnostic::error(format!("{} has nothing to plot here", kind.name), given.span));
+            }
+            charts
+        }
+        (Some(given), None) => {
+            return Err(Diagnostic::error(format!("{} has nothing to plot", kind.name), given.span)
+                .help(format!("-PLOT goes with {}", plotted_kinds())));
+        }
+    };
     job.verdict.over_break.append(&mut verdict.over_break);
     let position = args.position(const { SPEC.word("NAME") });
     if open_chosen_table(job, args, &tables, (None, position))? {
@@ -286,5 +310,13 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let units = job.units;
     send(job, args, |width| format!("{}{drawings}", page::render_all(&tables, units, &head, width)))?;
     tables.iter().for_each(|t| raise(job, t, position));
+    if let Some(plotted) = charts.into_iter().next() {
+        job.menus.push(Menu::Disposition(Box::new(Disposition::new(plotted))));
+    }
     Ok(Effect::Done)
+}
+
+/// The kinds that `-PLOT` draws, for a message.
+fn plotted_kinds() -> String {
+    KINDS.iter().filter(|kind| kind.charts.is_some()).map(|kind| kind.name).collect::<Vec<_>>().join(" ")
 }

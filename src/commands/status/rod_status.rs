@@ -15,6 +15,7 @@ pub static ROD: StatusKind =
         tables(query, |_| lines_at_rest(query.model(), &query.fits()))
     })
     .with_names(&[EntityKind::Connector, EntityKind::Assembly])
+    .plotted(|_, tables| Ok(tables.to_vec()))
     .also(&["F_ROD", "S_ROD"]);
 
 /// `&STATUS ROD_MODES`.

@@ -13,17 +13,15 @@ use windlass_model::EntityKind;
 use windlass_model::{Division, Environment};
 
 /// `&STATUS SEA_SPECTRUM`.
-pub static SEA_SPECTRUM: StatusKind = StatusKind {
-    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()),
-    ..StatusKind::new(
-        "SEA_SPECTRUM",
-        "the wave components of the seas of the environment in force, or of one kept under a name",
-        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
-    )
-    .with_names(&[EntityKind::Environment])
-    .of_moses()
-    .also(&["SEA"])
-};
+pub static SEA_SPECTRUM: StatusKind = StatusKind::new(
+    "SEA_SPECTRUM",
+    "the wave components of the seas of the environment in force, or of one kept under a name",
+    |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
+)
+.with_names(&[EntityKind::Environment])
+.plotted(|query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()))
+.of_moses()
+.also(&["SEA"]);
 
 /// Points of a spectrum plotted, and the shares of the energy between which they lie.
 const SPECTRUM_POINTS: usize = 241;
@@ -63,11 +61,16 @@ pub(crate) fn chosen_environments<'a>(job: &'a Job, chosen: Option<&'a dyn Fn(&s
     }
 }
 
-fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>> {
+/// The sea of an environment; `None` where it has none.
+///
+/// # Errors
+/// A spectrum that cannot be made.
+pub(crate) fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>> {
     Sea::new(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
 }
 
-fn title(what: &str, env: &Environment, train: Option<&EnvironmentSea>) -> String {
+/// The title of a table of an environment.
+pub(crate) fn title(what: &str, env: &Environment, train: Option<&EnvironmentSea>) -> String {
     let added = if train.is_some_and(|t| t.components.start > 0) { ", Added Sea" } else { "" };
     let name = if env.name.is_empty() { String::new() } else { format!(" of {}", env.name) };
     format!("{what}{name}{added}")

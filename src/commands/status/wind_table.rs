@@ -13,15 +13,13 @@ use windlass_model::EntityKind;
 use windlass_model::Environment;
 
 /// `&STATUS WIND_SPECTRUM`.
-pub static WIND_SPECTRUM: StatusKind = StatusKind {
-    charts: |query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()),
-    ..StatusKind::new(
-        "WIND_SPECTRUM",
-        "the components of the gusts of an environment, and with -PLOT their spectrum",
-        |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
-    )
-    .with_names(&[EntityKind::Environment])
-};
+pub static WIND_SPECTRUM: StatusKind = StatusKind::new(
+    "WIND_SPECTRUM",
+    "the components of the gusts of an environment, and with -PLOT their spectrum",
+    |query, _| spectra(query.job, query.is_named().then_some(&query.fits()), query.position()),
+)
+.with_names(&[EntityKind::Environment])
+.plotted(|query, _| densities(query.job, query.is_named().then_some(&query.fits()), query.position()));
 
 /// Points of a spectrum plotted, and the share of the energy up to which they lie.
 const SPECTRUM_POINTS: usize = 241;
@@ -63,7 +61,11 @@ pub(crate) fn facts(table: Table, gusts: &Gusts) -> Table {
         .fact("   seed", gusts.seed.to_string(), Dim::None)
 }
 
-fn gusts(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Gusts>> {
+/// Those of an environment; `None` where it has none.
+///
+/// # Errors
+/// A spectrum that cannot be made.
+pub(crate) fn gusts(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Gusts>> {
     Gusts::new(&job.model, env).map_err(|e| e.diagnostic(at, job.units))
 }
 

@@ -1,6 +1,6 @@
 //! Compartments: closed forms of a box barge with tanks.
 
-use crate::common::{fact, print_metric_records};
+use crate::common::{fact, function_values, print_metric_records};
 
 /// The row of the last table that begins with a word, as its words.
 fn row<'t>(text: &'t str, begins: &str) -> Vec<&'t str> {
@@ -254,4 +254,116 @@ fn heights_of_holes_are_reported() {
     ));
     assert_eq!(errors, 0, "{text}");
     check_near(*numbers(&text, "H").last().unwrap(), 3.6, 0.0051);
+}
+
+#[test]
+fn ballast_stays_within_minimum_and_maximum() {
+    // pairs of equal tanks fore, amidships and aft; 3 m of draft less 6000 t are 50 % of all six: amidships at most 20 %, so 65 % of the others
+    let tank = |name: &str, x: f64, side: &str| {
+        format!(
+            "&DESCRIBE COMPARTMENT {name}\nPGEN -{side}\nPLANE {} {} -CART 1 1 13 1 13 6 1 6\nEND\n",
+            x - 5.0,
+            x + 5.0
+        )
+    };
+    let tanks: String = [("1", 15.0), ("2", 45.75), ("3", 76.5)]
+        .iter()
+        .flat_map(|(n, x)| [tank(&format!("{n}P"), *x, "PORT"), tank(&format!("{n}S"), *x, "STBD")])
+        .collect();
+    let all = 1.025 * 6.0 * 10.0 * 12.0 * 5.0;
+    let draft = (6000.0 + 0.5 * all) / (1.025 * 91.5 * 27.5);
+    let barge = format!(
+        "MEDIT\n&DESCRIBE BODY B\nPGEN\nPLANE 0 91.5 -RECT 0 6.10 27.50\nEND\n{tanks}END\n&WEIGHT -TOTAL B 6000 45.75 0 5 9 25 25\n\
+         &INSTATE -CONDITION B {draft}\n"
+    );
+    let percent = |limits: &str, name: &str| {
+        let script = format!(
+            "&DIMEN -DIMEN METERS M-TONS\n{barge}{limits}&CMP_BAL B @\n&SET P = &COMPARTMENT({name} -PERCENT)\n"
+        );
+        function_values(&script, "&TOKEN(2 %P)")[0]
+    };
+    for (limits, middle, others) in [
+        ("", 50.0, 50.0),
+        ("&COMPARTMENT -MAXIMUM 2@ 20\n", 20.0, 65.0),
+        ("MEDIT\n&DESCRIBE COMPARTMENT 2P -MINIMUM 70\n&DESCRIBE COMPARTMENT 2S -MINIMUM 70\nEND\n", 70.0, 40.0),
+    ] {
+        for (name, want) in [("2P", middle), ("2S", middle), ("1P", others), ("3S", others)] {
+            check_near(percent(limits, name), want, 1e-4);
+        }
+    }
+    // -FULL stops there, and more is refused
+    let full = format!(
+        "&DIMEN -DIMEN METERS M-TONS\n{barge}&COMPARTMENT -MAXIMUM 1P 95\n&COMPARTMENT -FULL 1P\n&SET P = &COMPARTMENT(1P -PERCENT)\n"
+    );
+    check_near(function_values(&full, "&TOKEN(2 %P)")[0], 95.0, 1e-9);
+    let (text, errors) =
+        print_metric_records(&format!("{barge}&COMPARTMENT -MAXIMUM 1P 95\n&COMPARTMENT -PERCENT 1P 96"));
+    assert!(errors == 1 && text.contains("96 % of compartment 1P is more than its -MAXIMUM of 95 %"), "{text}");
+}
+
+/// A polygon of a cross-section below a height: area and height of its centroid.
+fn below(corners: &[[f64; 2]], height: f64) -> [f64; 2] {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        if a[1] <= height {
+            kept.push(*a);
+        }
+        if (a[1] <= height) != (b[1] <= height) {
+            let share = (height - a[1]) / (b[1] - a[1]);
+            kept.push([a[0] + share * (b[0] - a[0]), height]);
+        }
+    }
+    let (mut area, mut moment) = (0.0, 0.0);
+    for (a, b) in kept.iter().zip(kept.iter().cycle().skip(1)) {
+        let cross = a[0] * b[1] - b[0] * a[1];
+        area += 0.5 * cross;
+        moment += cross * (a[1] + b[1]) / 6.0;
+    }
+    [area, moment / area]
+}
+
+/// The same of the part of so large an area, found by bisection: the height of its surface and that of its centroid.
+fn filled(corners: &[[f64; 2]], area: f64) -> [f64; 2] {
+    let (mut low, mut high) = (-100.0, 100.0);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if below(corners, middle)[0] < area { low = middle } else { high = middle }
+    }
+    [high, below(corners, high)[1]]
+}
+
+#[test]
+fn work_of_heeling_barge_with_slack_tanks_is_its_potential_energy() {
+    // to 40 degrees: the deck goes under, the bilge comes out, and the liquid meets roof and floor of both tanks. The energy of the barge at a heel,
+    // over its weight: heights of the weight and of both liquids above the waterline less that of the centre of buoyancy, of cut polygons
+    let (length, dry, kg) = (91.5, 6000.0, 5.0);
+    let rectangle = |y: [f64; 2], z: [f64; 2]| [[y[0], z[0]], [y[1], z[0]], [y[1], z[1]], [y[0], z[1]]];
+    let hull = rectangle([-13.75, 13.75], [0.0, 6.1]);
+    let (span, tanks) =
+        (30.0, [(rectangle([2.0, 12.0], [1.0, 5.0]), 0.6), (rectangle([-12.0, -2.0], [1.0, 5.0]), 0.6)]);
+    let liquid = 1.025 * span * 40.0 * 0.6;
+    let weight = dry + 2.0 * liquid;
+    let energy = |degrees: f64| {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let turned = |list: &[[f64; 2]; 4]| list.map(|[y, z]| [y * cos - z * sin, y * sin + z * cos]);
+        let [waterline, buoyancy] = filled(&turned(&hull), weight / (1.025 * length));
+        let contents: f64 =
+            tanks.iter().map(|(tank, share)| liquid * (filled(&turned(tank), 40.0 * share)[1] - waterline)).sum();
+        (dry * (kg * cos - waterline) + contents) / weight - (buoyancy - waterline)
+    };
+    let script = "&DIMEN -DIMEN METERS M-TONS\n&DEFAULT -WATER 1025 -G 9.80665\nMEDIT\n&DESCRIBE BODY B\nPGEN\nPLANE 0 91.5 -RECT 0 6.10 27.50\nEND\n\
+                  &DESCRIBE COMPARTMENT TS\nPGEN -STBD\nPLANE 30.75 60.75 -CART 2 1 12 1 12 5 2 5\nEND\n\
+                  &DESCRIBE COMPARTMENT TP\nPGEN -PORT\nPLANE 30.75 60.75 -CART 2 1 12 1 12 5 2 5\nEND\nEND\n\
+                  &WEIGHT -TOTAL B 6000 45.75 0 5 9 25 25\n&COMPARTMENT -PERCENT @ 60 1.025\n&INSTATE -CONDITION B 2.9\n\
+                  HSTATICS B\nRARM 0.5 80 -TOLERANCE 1E-9 1E-9 1E-9\nSET_VARIABLE V Arm\nEND\nEND\n";
+    let arms = function_values(script, "%V");
+    assert_eq!(arms.len(), 81);
+    // Simpson's rule on steps of half a degree
+    let mut work = 0.0;
+    for (n, three) in arms.windows(3).enumerate().step_by(2) {
+        let [a, b, c] = three else { continue };
+        work += 0.5f64.to_radians() * (a + 4.0 * b + c) / 3.0;
+        let want = energy(0.5 * (n + 2) as f64) - energy(0.0);
+        assert!((work - want).abs() < 2e-6, "{} degrees: {work} is not {want}", 0.5 * (n + 2) as f64);
+    }
 }

@@ -96,3 +96,18 @@ fn surfaces_before_body_displace_only_after_emit() {
     assert_near(volume(&format!("{surfaces}\nEMIT COLUMN")), 2.0 * octagon, 1e-4);
     assert_near(volume(&format!("{surfaces}\nEMIT @")), 4.0 * octagon, 1e-4);
 }
+
+#[test]
+fn system_of_four_points_places_points_by_hand() {
+    // x from *P1 to *P2, which is +Y; *P3 to *P4 is -X, so that z = (0 1 0) x (-1 0 0) = +Z and y = -X: (2 3 4) stands at (10-3 20+2 30+4).
+    // Of *Q1 to *Q2 along (1 0 1): x = (1 0 1)/sqrt 2, the way (0 1 0), z = (-1 0 1)/sqrt 2, y = (0 1 0)
+    let script = "&DIMEN -DIMEN METERS M-TONS\nMEDIT\n&DESCRIBE BODY B\n*P1 5 0 0\n*P2 5 7 0\n*P3 9 1 0\n*P4 2 1 0\n*Q1 1 1 1\n*Q2 3 1 3\n*Q3 0 0 0\n*Q4 0 5 0\n\
+                  &DEFAULT -LOCATION 10 20 30 *P1 *P2 *P3 *P4\n*A 2 3 4\n&DEFAULT -LOCATION 10 20 30 *Q1 *Q2 *Q3 *Q4\n&DEFAULT -RECT\nEND\n";
+    let at = crate::common::function_values(script, "&POINT(COORDINATES *A)");
+    let near = |got: &[f64], want: [f64; 3]| got.iter().zip(want).all(|(g, w)| (g - w).abs() < 1e-12);
+    assert!(near(&at, [7.0, 22.0, 34.0]), "{at:?}");
+    let tilted = script.replace("&DEFAULT -RECT\n", "").replace("*A 2 3 4\n", "").replace("END\n", "*A 2 3 4\nEND\n");
+    let at = crate::common::function_values(&tilted, "&POINT(COORDINATES *A)");
+    let root = 2f64.sqrt();
+    assert!(near(&at, [10.0 + 2.0 / root - 4.0 / root, 23.0, 30.0 + 2.0 / root + 4.0 / root]), "{at:?}");
+}

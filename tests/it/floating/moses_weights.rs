@@ -179,9 +179,16 @@ fn tanker_has_forces_of_its_coefficients() {
     let (text, _) = print_records(&format!("{file}{model}&ENV -WIND 40 180\n&STATUS LOADS"));
     let speed: f64 = 40.0 * 1852.0 / 3600.0;
     check_near(row(&text, "T WIND")[0], 0.5 * 1.226 * 0.9 * speed * speed * 1200.0 / tonne, 0.006);
-    // without a file: the form of one
-    let (text, errors) = print_records("MEDIT\n&DESCRIBE BODY T\n*MID 0 0 10\n#TANKER 150 *MID\nEND");
-    assert!(errors == 1 && text.contains("HEADING CXW CYW CNW CXC CYC CNC"), "{text}");
+    // without a file: the form of one, and the next solve stops; with one of lacking values an error
+    for point in ["", " *MID"] {
+        let (text, errors) =
+            print_records(&format!("MEDIT\n&DESCRIBE BODY T\n*MID 0 0 10\n#TANKER 150{point}\nEND\n&TYPE read\n&EQUI"));
+        assert!(errors == 1 && text.contains("HEADING CXW CYW CNW CXC CYC CNC") && text.contains("read"), "{text}");
+        assert!(text.contains("the solve stops: not computed is #TANKER 150 (wind and current on a tanker"), "{text}");
+    }
+    let (text, errors) =
+        print_records("MEDIT\n&DESCRIBE BODY T\n*MID 0 0 10\n#TANKER 150 *MID -FILE a.csv -LBP 9\nEND");
+    assert!(errors == 1 && text.contains("#TANKER lacks -DRAFT"), "{text}");
 }
 
 #[test]
@@ -280,4 +287,34 @@ fn instate_takes_body_before_its_options() {
     assert_eq!(errors, 0, "{text}");
     assert_eq!(row(&text, "A ")[..3], [2.0, 2.0, 3.0]);
     assert_eq!(row(&text, "B ")[..3], [5.0, 0.0, 0.0]);
+}
+
+#[test]
+fn margin_multiplies_weights_of_its_categories_beside_their_multiplier() {
+    let barge = "MEDIT\n&DESCRIBE BODY B\n*P 0 0 9\n#WEIGHT *P 1000 -CATEGORY STR_MODEL\n#WEIGHT *P 500\nEND\n";
+    let weight = |records: &str| crate::common::function_values(&format!("{barge}{records}"), "&BODY(WEIGHT B)")[0];
+    for (records, want) in [
+        ("&APPLY -MARGIN STR@ 6.0\n&APPLY -PERCENT @ 100\n", 1560.0),
+        ("&APPLY -MARGIN STR@ 6.0 EXTRA -10\n", 1060.0 + 450.0),
+        ("&APPLY -PERCENT -CATEGORY STR@ #DEAD 105 -MARGIN STR@ 6\n", 1000.0 * 1.05 * 1.06 + 500.0),
+        ("&APPLY -MARGIN @ 6\n&APPLY -MARGIN STR@ 3\n", 1530.0),
+    ] {
+        check_near(weight(records), want, 1e-9 * want);
+    }
+    let (text, errors) =
+        print_records(&format!("{barge}&APPLY -MARGIN STR@\n&APPLY -MARGIN STR@ x\n&APPLY -MARGIN STR@ -101\n"));
+    assert!(errors == 3 && text.contains("a load category of -MARGIN lacks its percent"), "{text}");
+    assert!(text.contains("expected a multiplier, not x") && text.contains("leaves a negative weight"), "{text}");
+}
+
+#[test]
+fn computed_weight_says_which_connectors_it_leaves_out() {
+    let (text, errors) = print_records(
+        "MEDIT\n&DESCRIBE BODY B\n*P 0 0 9\nPGEN\nPLANE 0 180 -RECT 0 14 50\nEND\n~T TUG_BOAT 100\nCONNECTOR T1 -TUG 90 100 ~T *P\nCONNECTOR T2 -TUG 270 100 ~T *P\nEND\n\
+         &INSTATE -CONDITION B 7\n&WEIGHT -COMPUTE B 5 32 85 85\n&STATUS WEIGHT",
+    );
+    // 180 x 50 x 7 ft of sea water, as without them
+    assert_eq!(errors, 0, "{text}");
+    check_near(row(&text, "B (whole)")[1], 4031.29, 0.05);
+    assert!(text.contains("-COMPUTE leaves out 2 connectors of B"), "{text}");
 }

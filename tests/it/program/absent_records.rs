@@ -141,9 +141,9 @@ fn events_of_report_take_rows_by_their_times() {
 
 #[test]
 fn absent_report_and_form_of_describe_are_refused_with_what_there_is() {
-    let (_, said) = run("&STATUS PILE\n&STATUS SPREAD\nMEDIT\nASSEMBLY CONTROL A B\nEND\n");
+    let (_, said) = run("&STATUS PILE\n&STATUS NOTE\nMEDIT\nASSEMBLY CONTROL A B\nEND\n");
     assert!(said.len() == 3 && said[..2].iter().all(|(severity, _)| *severity == Severity::Error), "{said:?}");
-    assert!(said[1].1.contains("LINE_ANGLES") && said[2].1.contains("a control of lengths"), "{said:?}");
+    assert!(said[1].1.contains("stand in the log") && said[2].1.contains("a control of lengths"), "{said:?}");
 }
 
 #[test]

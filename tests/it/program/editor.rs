@@ -382,11 +382,13 @@ fn plot_has_terminal_width_unless_its_size_is_set() {
         t.press("\x0c");
         t.wait("a cleared screen", |screen| screen.contents().trim() == "MAIN>");
         t.record("&STATUS CURVES -PLOT");
-        t.ready("MAIN> ");
+        t.ready("DISPOSITION> ");
         let rows: Vec<String> = t.screen.screen().rows(0, 300).collect();
         let plotted = |row: &&String| row.contains(|c| ('\u{2800}'..='\u{28ff}').contains(&c));
         let got = rows.iter().filter(plotted).map(|r| r.trim_end().chars().count()).max().unwrap_or(0);
         assert!(width.contains(&got), "{got} of {columns}\n{}", rows.join("\n"));
+        t.record("END");
+        t.ready("MAIN> ");
     }
     assert_eq!(t.end(), 0);
 }

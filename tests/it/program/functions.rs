@@ -222,3 +222,52 @@ fn compartment_function_gives_data_of_the_record_that_fills_it() {
     let (text, said) = run_script(&format!("{again}&TYPE <&COMPARTMENT(T1 -AMOUNT)>\n"));
     assert!(text.contains("<T1 492 1.025>"), "{text} {said:?}");
 }
+
+#[test]
+fn names_come_in_singular_and_plural() {
+    let model = "MEDIT\n&DESCRIBE BODY B\n*P 0 0 9\n*Q 9 0 9\n&DESCRIBE LOAD_GROUP LG\n#WEIGHT *P 10 -CATEGORY STEEL\n#WEIGHT *P 10\n&DESCRIBE HOLE H VENT -POINT *P -NORMAL 0 0 1\n\
+                 ~T TUBE 20 1\nBEAM BM ~T *P *Q\nEND\n&DESCRIBE SENSOR S -SIGNAL POINT *P Z\n&DATA SHAPES\nW14 IBEAM 14 14 1 1\nEND\n";
+    for (kinds, want) in [
+        (["LOAD_GROUPS", "LOAD_GROUP"], "B LG"),
+        (["CATEGORIES", "CATEGORY"], "STEEL EXTRA STR_MODEL"),
+        (["HOLES", "HOLE"], "H"),
+        (["SENSORS", "SENSOR"], "S"),
+        (["ELEMENTS", "ELEMENT"], "BM"),
+        (["SHAPES", "SHAPE"], "W14"),
+        (["PROCESSES", "PROCESS"], "DEFAULT"),
+        (["PI_VIEWS", "PI_VIEW"], ""),
+    ] {
+        for kind in kinds {
+            let (text, said) = run_script(&format!("{model}&TYPE <&NAMES({kind})> <&NAMES({kind} NO@)>\n"));
+            assert!(text.contains(&format!("<{want}> <>")), "{kind}: {text} {said:?}");
+        }
+    }
+}
+
+#[test]
+fn question_without_answer_is_one_error_and_script_goes_on() {
+    let script = "&LOCAL DUM = &GET(YES/NO )\n&IF &STRING(MATCH '%DUM%' YES) &THEN\n&TYPE yes\n&ELSE\n&TYPE no\n&ENDIF\n&LOCAL DUM = &GET(YES/NO )\n&TYPE behind\n";
+    let (text, said) = run_script(script);
+    assert!(text.contains("no\nbehind"), "{text}");
+    assert!(said.len() == 1 && said[0].contains("&GET got no answer"), "{said:?}");
+}
+
+#[test]
+fn list_of_names_is_gone_through_by_pattern_and_again() {
+    let walk = "&LOOP\n&EXIT &VARIABLE(-WHILE <MACDBF>TANKS 1@ T)\n&TYPE got %T\n&ENDLOOP\n";
+    let (text, said) =
+        run_script(&format!("&VARIABLE <MACDBF>TANKS -ADD 1P 1S 2P\n&VARIABLE <macdbf>tanks -ADD 1C\n{walk}{walk}"));
+    let got: Vec<_> = text.lines().filter_map(|line| line.strip_prefix("got ")).collect();
+    assert_eq!(got, ["1P", "1S", "1C", "1P", "1S", "1C"], "{said:?}");
+    let (_, said) = run_script(
+        "&VARIABLE TANKS -ADD A\n&VARIABLE <NODBF>T -ADD A\n&VARIABLE <MACDBF>T\n&SET X = &VARIABLE(-WHILE <MACDBF>T @ V)\n&SET X = &VARIABLE(-FIRST <MACDBF>T @ V)\n",
+    );
+    let heads = [
+        "`TANKS` names no list",
+        "unknown database NODBF",
+        "&VARIABLE lacks -ADD",
+        "there is no list <MACDBF>T",
+        "unknown option of &VARIABLE",
+    ];
+    assert!(said.len() == 5 && said.iter().zip(heads).all(|(said, head)| said.starts_with(head)), "{said:?}");
+}

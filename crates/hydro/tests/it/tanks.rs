@@ -43,6 +43,7 @@ fn model(fraction: f64) -> Model {
             description: String::new(),
             sounding_tube: None,
             residual: 0.0,
+            maximum: 1.0,
             holes: Vec::new(),
             contents,
             span,

@@ -21,7 +21,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
 use windlass_hydro::stability::StaticWave;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
-use windlass_model::{Body, find};
+use windlass_model::{Body, SolveKind, find};
 
 /// HSTATICS.
 pub static HSTATICS: Command = Command { spec: &SPEC, edits: false, run };
@@ -82,7 +82,11 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// The body of the menu.
+///
+/// # Errors
+/// None of its name, or a record of weight or buoyancy whose effect is not computed.
 fn body(job: &Job, span: Span) -> Outcome<&Body> {
+    job.model.check_effects(SolveKind::Hydrostatics).map_err(|e| e.diagnostic(span, job.units))?;
     let name = job.menus.iter().rev().find_map(|menu| match menu {
         Menu::Hydrostatics(open) => Some(open.body.as_str()),
         _ => None,
