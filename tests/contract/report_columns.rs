@@ -130,3 +130,23 @@ fn explanations_of_columns_are_phrases() {
         }
     }
 }
+
+#[test]
+fn help_finds_a_column_with_its_meaning_and_unit() {
+    let folder = tempfile::tempdir().unwrap();
+    let job = JobFolder::new(folder.path().join("job"), None, false);
+    let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
+    session.open("records", "&HELP 'Line on Bottom'\n&HELP declination\n");
+    session.run();
+    session.finish();
+    let log = fs::read_to_string(folder.path().join("job.ans/LOG00001.TXT")).unwrap();
+    let words = log.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("column of TABLE of CONN_DESIGN; TABLE -VARY of CONN_DESIGN: length on the seabed, stretched"),
+        "{words}"
+    );
+    assert!(
+        words.contains("angle of the line from straight down at its fairlead: 90 degrees are horizontal (deg)"),
+        "{words}"
+    );
+}

@@ -54,7 +54,7 @@ pub(super) static REPORTS: &[ReportColumns] = &[
             column("Tension: Crit. Seg", NONE, "the segment, from the first end, that has Max T/TB"),
             column("Anchor: V. Pull", FORCE, "what the anchor bears, positive upward"),
             column("Anchor: H. Pull", FORCE, "what the anchor bears horizontally, toward the first end"),
-            column("Line on Bottom", LENGTH, "length on the seabed, stretched"),
+            column("Line on Bottom", LENGTH, "length on the seabed, stretched: the grounded length"),
         ],
     },
     ReportColumns {
