@@ -30,8 +30,11 @@ fn scheme(run: &Run) -> String {
 /// What a run did.
 pub fn run_table(run: &Run) -> Table {
     let RunCounts { steps: counted, cut, iterations, evaluations } = run.counts;
-    let mut table = Table::new("Time Domain")
-        .fact("Began", run.began.as_str(), Dim::None)
+    let mut table = Table::new("Time Domain").fact("Began", run.began.as_str(), Dim::None);
+    if run.start() > 0.0 {
+        table = table.fact("Start", run.start(), Dim::Time);
+    }
+    table = table
         .fact("Time Reached", run.time(), Dim::Time)
         .fact("Step", run.settings.dt, Dim::Time)
         .fact("Scheme", scheme(run), Dim::None)

@@ -139,6 +139,9 @@ fn environment(job: &Job, env: &Environment) -> Table {
     if let Err(error) = &steady {
         table.warn(error.text(job.units).to_string());
     }
+    if env.run_start > 0.0 {
+        table = table.fact("Start of Runs", env.run_start, Dim::Time);
+    }
     if let Some(time) = env.time {
         table = table
             .fact("Time Observed", time.observed, Dim::Time)
@@ -151,7 +154,7 @@ fn environment(job: &Job, env: &Environment) -> Table {
 
 /// The options kept that have no line of their own above, as they were given.
 fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
-    const SHOWN: [OptionSpec; 11] = [
+    const SHOWN: [OptionSpec; 12] = [
         env::WATER,
         env::SPGWATER,
         env::DEPTH,
@@ -163,6 +166,7 @@ fn others(mut table: Table, env: &Environment, job: &Job) -> Table {
         wind_options::WIND,
         env::CURRENT,
         env::TIME,
+        env::START,
     ];
     for given in env.options.iter().filter(|given| !given.is_any(&SHOWN)) {
         let text = option_as_written(given, job.units);

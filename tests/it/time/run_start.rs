@@ -101,6 +101,9 @@ fn actions_happen_at_their_times_or_before_the_first_instant() {
     let (fired, first, text) = acts("131");
     assert_eq!((fired, first), (None, None));
     assert!(text.contains("the run ends at 130 s, before the actions GO at 131 s"), "{text}");
+    // the page of the run says when it began
+    let line = text.lines().find(|line| line.contains("   Start ")).unwrap_or_else(|| panic!("{text}"));
+    assert!(line.ends_with("= 100.00 s"), "{line}");
 }
 
 #[test]
