@@ -1,0 +1,51 @@
+//! What can be wrong with a problem.
+
+use thiserror::Error;
+
+/// Why a problem has no answer.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum DiffractionError {
+    /// A mesh without panels.
+    #[error("the mesh has no panels")]
+    NoPanels,
+    /// A panel without area.
+    #[error("panel {0} has no area")]
+    FlatPanel(usize),
+    /// A coordinate that is not finite.
+    #[error("panel {0} has a coordinate that is not finite")]
+    NotFinite(usize),
+    /// A panel that rises above the water.
+    #[error("panel {panel} rises {height:.4} m above the mean water level; cut the mesh there")]
+    AboveWater {
+        /// Its number, from 1.
+        panel: usize,
+        /// By how much (m).
+        height: f64,
+    },
+    /// A panel of a half or quarter mesh on the wrong side of a mirror plane.
+    #[error("panel {0} lies on the far side of a mirror plane")]
+    BeyondMirror(usize),
+    /// A frequency that is not above zero, or not finite.
+    #[error("the frequency is {0} rad/s, and has to be above zero")]
+    Frequency(f64),
+    /// Density or gravity that is not above zero.
+    #[error("density and gravity have to be above zero")]
+    Water,
+    /// A bottom that is not below the hull.
+    #[error("the water is {depth} m deep, and the hull reaches down to {draught:.4} m")]
+    Depth {
+        /// Depth (m).
+        depth: f64,
+        /// Draught (m).
+        draught: f64,
+    },
+    /// Mirror planes together with several bodies.
+    #[error("mirror planes are for one body alone, there are {0}")]
+    MirroredBodies(usize),
+    /// A system of equations without a solution in numbers.
+    #[error("the system of equations at {0:.6} rad/s has no solution that is finite")]
+    NoSolution(f64),
+    /// The user interrupted.
+    #[error("interrupted")]
+    Interrupted,
+}

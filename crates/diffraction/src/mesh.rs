@@ -1,0 +1,123 @@
+//! Meshes of wetted hulls.
+
+use crate::error::DiffractionError;
+use crate::panel::Panel;
+use nalgebra::Vector3;
+
+/// How far above the mean level a corner may be, as a share of its panel's diagonal: rounding of a cut.
+const LEVEL_SHARE: f64 = 1e-6;
+
+/// Mirror planes of a hull whose mesh is the half or quarter with positive coordinates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MirrorPlanes {
+    /// The hull is the same at x and -x.
+    pub x: bool,
+    /// The hull is the same at y and -y.
+    pub y: bool,
+}
+
+impl MirrorPlanes {
+    /// Signs of x and y of each image, the mesh itself first.
+    pub fn images(self) -> Vec<[f64; 2]> {
+        let signs = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+        signs(self.x).iter().flat_map(|x| signs(self.y).iter().map(move |y| [*x, *y])).collect()
+    }
+}
+
+/// The wetted panels of a body, or of the part of it on one side of its mirror planes.
+#[derive(Clone, Debug)]
+pub struct HullMesh {
+    /// Those of the hull, then those of the lid.
+    panels: Vec<Panel>,
+    hull_count: usize,
+    mirrors: MirrorPlanes,
+}
+
+impl HullMesh {
+    /// A mesh by the corners of its panels (m; z = 0 is the mean level, a triangle repeats a corner), counter-clockwise as seen from the
+    /// water.
+    ///
+    /// # Errors
+    /// No panels; one without area, with a coordinate that is not finite, above the water, or beyond a mirror plane.
+    pub fn new(quads: &[[Vector3<f64>; 4]], mirrors: MirrorPlanes) -> Result<Self, DiffractionError> {
+        let panels: Vec<Panel> = quads
+            .iter()
+            .enumerate()
+            .map(|(i, corners)| checked_panel(i + 1, corners, mirrors))
+            .collect::<Result<_, _>>()?;
+        HullMesh::from_panels(panels, Vec::new(), mirrors)
+    }
+
+    /// A mesh of panels that were checked: those of the hull and of a lid.
+    pub(crate) fn from_panels(
+        mut panels: Vec<Panel>,
+        lid: Vec<Panel>,
+        mirrors: MirrorPlanes,
+    ) -> Result<Self, DiffractionError> {
+        let hull_count = panels.len();
+        panels.extend(lid);
+        if hull_count == 0 { Err(DiffractionError::NoPanels) } else { Ok(HullMesh { panels, hull_count, mirrors }) }
+    }
+
+    /// The same hull with its inner waterplane closed by a lid, which takes irregular frequencies away [LEE-NEWMAN-ZHU-1996]; none where its
+    /// waterline is not one ring about a point from which all of it is seen.
+    pub fn with_lid(&self) -> Option<Self> {
+        let hull: Vec<Panel> = self.hull().to_vec();
+        let lid = crate::lid::close_waterplane(&hull, self.mirrors)?;
+        HullMesh::from_panels(hull, lid, self.mirrors).ok()
+    }
+
+    /// The panels of the hull.
+    pub fn hull(&self) -> &[Panel] {
+        &self.panels[..self.hull_count]
+    }
+
+    /// The panels of the lid.
+    pub fn lid(&self) -> &[Panel] {
+        &self.panels[self.hull_count..]
+    }
+
+    /// How many panels are of the hull; those of the lid follow.
+    pub(crate) fn hull_count(&self) -> usize {
+        self.hull_count
+    }
+
+    /// Those of the hull, then those of the lid.
+    pub(crate) fn panels(&self) -> &[Panel] {
+        &self.panels
+    }
+
+    /// Its mirror planes.
+    pub fn mirrors(&self) -> MirrorPlanes {
+        self.mirrors
+    }
+
+    /// The displaced volume (m3) by the x, y and z components of the normals, of the mesh as given: they agree where it is closed but for
+    /// the waterplane and lies on both sides of x = 0 and y = 0.
+    pub fn volumes(&self) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for panel in self.hull() {
+            for (axis, sum) in sums.iter_mut().enumerate() {
+                *sum += panel.normal[axis] * panel.centroid[axis] * panel.area;
+            }
+        }
+        sums
+    }
+}
+
+fn checked_panel(number: usize, corners: &[Vector3<f64>; 4], mirrors: MirrorPlanes) -> Result<Panel, DiffractionError> {
+    if corners.iter().any(|corner| corner.iter().any(|x| !x.is_finite())) {
+        return Err(DiffractionError::NotFinite(number));
+    }
+    let panel = Panel::new(*corners).ok_or(DiffractionError::FlatPanel(number))?;
+    let room = LEVEL_SHARE * panel.diagonal;
+    let height = corners.iter().fold(f64::NEG_INFINITY, |most: f64, corner| most.max(corner.z));
+    if height > room {
+        return Err(DiffractionError::AboveWater { panel: number, height });
+    }
+    let beyond = |mirrored: bool, axis: usize| mirrored && corners.iter().any(|corner| corner[axis] < -room);
+    if beyond(mirrors.x, 0) || beyond(mirrors.y, 1) {
+        return Err(DiffractionError::BeyondMirror(number));
+    }
+    Ok(panel)
+}

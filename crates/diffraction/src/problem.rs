@@ -1,0 +1,268 @@
+//! Bodies in waves: added mass, damping and wave exciting forces at a frequency.
+
+use crate::error::DiffractionError;
+use crate::gmres::{self, Columns};
+use crate::mesh::{HullMesh, MirrorPlanes};
+use crate::panel::Panel;
+use crate::rankine::{RankinePart, rankine_parts};
+use crate::symmetry::SymmetryClass;
+use crate::wave_system::{WaveKernel, wave_systems};
+use nalgebra::{Complex, DMatrix, Vector3};
+
+type C = Complex<f64>;
+
+/// Rigid motions of a body: surge, sway, heave, roll, pitch, yaw.
+pub const MOTIONS: usize = 6;
+/// Residual of the equations over their right side: well below what the panels leave.
+const TOLERANCE: f64 = 1e-7;
+
+/// Density, gravity and depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Water {
+    /// Depth (m); none is deep water.
+    pub depth: Option<f64>,
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Acceleration of gravity (m/s2).
+    pub gravity: f64,
+}
+
+/// A body: its wetted mesh, and the origin of its motions and moments (m).
+#[derive(Clone, Debug)]
+pub struct DiffractionBody {
+    /// Wetted panels in global axes.
+    pub mesh: HullMesh,
+    /// Where its motions and moments are taken.
+    pub origin: Vector3<f64>,
+}
+
+/// Bodies in water with all that does not depend on the frequency.
+#[derive(Clone, Debug)]
+pub struct DiffractionProblem {
+    mesh: HullMesh,
+    water: Water,
+    classes: Vec<SymmetryClass>,
+    /// Of each class: the motions (six a body) whose velocities are in it.
+    motions: Vec<Vec<usize>>,
+    /// Of each class: `n_j` on the panels, n out of the water, panel by panel and then motion by motion.
+    velocities: Vec<Vec<f64>>,
+    rankine: Vec<RankinePart>,
+    motion_count: usize,
+    /// Largest horizontal distance between points of the hulls and their images (m).
+    reach: f64,
+    draught: f64,
+}
+
+/// Forces at one frequency, for the time factor `exp(-i omega t)`; six motions a body, about its origin.
+#[derive(Clone, Debug)]
+pub struct FrequencyForces {
+    /// Frequency (rad/s).
+    pub frequency: f64,
+    /// Added mass (kg, kg m, kg m2): row the force, column the motion.
+    pub added_mass: DMatrix<f64>,
+    /// Radiation damping (N s/m, N s, N m s).
+    pub damping: DMatrix<f64>,
+    /// Of each heading: wave exciting forces (N, N m for an amplitude of 1 m) by the pressure of the diffraction problem.
+    pub excitation: Vec<Vec<C>>,
+    /// The same by Haskind's relation, from the radiation potentials.
+    pub haskind: Vec<Vec<C>>,
+    /// Products with the matrices of the classes until the equations were solved.
+    pub iterations: usize,
+}
+
+impl DiffractionProblem {
+    /// Prepares bodies in water.
+    ///
+    /// # Errors
+    /// No body; mirror planes of one of several bodies; density, gravity or depth that is not above zero; a bottom above the keel.
+    pub fn new(bodies: &[DiffractionBody], water: Water) -> Result<Self, DiffractionError> {
+        if !(water.density > 0.0 && water.gravity > 0.0 && (water.density * water.gravity).is_finite()) {
+            return Err(DiffractionError::Water);
+        }
+        let mesh = HullMesh::joined(bodies.iter().map(|body| &body.mesh))?;
+        let mirrors = mesh.mirrors();
+        let classes = SymmetryClass::all(mirrors);
+        let motions: Vec<Vec<usize>> = classes
+            .iter()
+            .map(|class| (0..MOTIONS * bodies.len()).filter(|m| class.has_mode(m % MOTIONS, mirrors)).collect())
+            .collect();
+        let velocities: Vec<Vec<f64>> = motions
+            .iter()
+            .map(|motions| {
+                let panels =
+                    bodies.iter().enumerate().flat_map(|(b, body)| body.mesh.hull().iter().map(move |p| (b, body, p)));
+                let on_hull = panels.flat_map(|(b, body, panel)| {
+                    let own = normal_velocities(panel, &body.origin);
+                    motions.iter().map(move |m| if m / MOTIONS == b { own[m % MOTIONS] } else { 0.0 })
+                });
+                let on_lid = std::iter::repeat_n(0.0, mesh.lid().len() * motions.len());
+                on_hull.chain(on_lid).collect()
+            })
+            .collect();
+        let corners = || mesh.panels().iter().flat_map(|panel| panel.corners());
+        let draught = corners().fold(0.0, |most: f64, corner| most.max(-corner.z));
+        if let Some(depth) = water.depth
+            && !(depth.is_finite() && depth >= draught)
+        {
+            return Err(DiffractionError::Depth { depth, draught });
+        }
+        let extent = |axis: usize, mirrored: bool| {
+            let (low, high) = corners().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| {
+                (low.min(corner[axis]), high.max(corner[axis]))
+            });
+            if mirrored { 2.0 * high } else { high - low }
+        };
+        let reach = extent(0, mirrors.x).hypot(extent(1, mirrors.y));
+        let rankine = rankine_parts(&mesh, &classes, &velocities, water.depth);
+        let motion_count = MOTIONS * bodies.len();
+        Ok(DiffractionProblem { mesh, water, classes, motions, velocities, rankine, motion_count, reach, draught })
+    }
+
+    /// Solves the radiation problems and the diffraction problem of each heading (rad, where the waves go to, 0 along x).
+    ///
+    /// # Errors
+    /// A frequency (rad/s) that is not above zero; equations whose solution is not finite.
+    pub fn solve(&self, frequency: f64, headings: &[f64]) -> Result<FrequencyForces, DiffractionError> {
+        if !(frequency > 0.0 && frequency.is_finite()) {
+            return Err(DiffractionError::Frequency(frequency));
+        }
+        let nu = frequency * frequency / self.water.gravity;
+        let kernel = WaveKernel::new(nu, self.water.depth, self.reach, self.draught);
+        let systems = wave_systems(&kernel, &self.mesh, &self.classes, &self.velocities, &self.rankine);
+        let wave = IncidentWave {
+            frequency,
+            wave_number: kernel.wave_number(),
+            gravity: self.water.gravity,
+            depth: self.water.depth,
+        };
+        let images = self.mesh.mirrors().images();
+        let panels = self.mesh.panels();
+        let count = self.motion_count;
+        let rho = self.water.density;
+        let mut made = FrequencyForces {
+            frequency,
+            added_mass: DMatrix::zeros(count, count),
+            damping: DMatrix::zeros(count, count),
+            excitation: vec![vec![C::default(); count]; headings.len()],
+            haskind: vec![vec![C::default(); count]; headings.len()],
+            iterations: 0,
+        };
+        for (((class, system), motions), velocities) in
+            self.classes.iter().zip(&systems).zip(&self.motions).zip(&self.velocities)
+        {
+            let mut right = Columns::zeros(panels.len(), motions.len() + headings.len());
+            for motion in 0..motions.len() {
+                right.column_mut(motion).copy_from_slice(system.radiation.column(motion));
+            }
+            let incident: Vec<Vec<(C, C)>> = headings
+                .iter()
+                .map(|heading| panels.iter().map(|panel| wave.in_class(panel, *heading, *class, &images)).collect())
+                .collect();
+            for (index, potentials) in incident.iter().enumerate() {
+                let side = right.column_mut(motions.len() + index);
+                for (value, (potential, _)) in side.iter_mut().zip(potentials) {
+                    *value = potential * (4.0 * std::f64::consts::PI);
+                }
+            }
+            let (solved, uses) = gmres::solve(&right, TOLERANCE, |vectors| system.multiply(vectors))
+                .ok_or(DiffractionError::NoSolution(frequency))?;
+            made.iterations += uses;
+            let on_hull = |i: usize| if i < self.mesh.hull_count() { images.len() as f64 } else { 0.0 };
+            let weights: Vec<f64> = panels.iter().enumerate().map(|(i, panel)| panel.area * on_hull(i)).collect();
+            let integrate = |potential: &[C], motion: usize| -> C {
+                let own = velocities.iter().skip(motion).step_by(motions.len().max(1));
+                potential.iter().zip(own).zip(&weights).map(|((p, n), area)| p * (n * area)).sum()
+            };
+            for (column, motion) in motions.iter().enumerate() {
+                for (row, force) in motions.iter().enumerate() {
+                    let integral = integrate(solved.column(column), row) * rho;
+                    made.added_mass[(*force, *motion)] = integral.re;
+                    made.damping[(*force, *motion)] = integral.im * frequency;
+                }
+                let radiated = solved.column(column);
+                for (index, potentials) in incident.iter().enumerate() {
+                    let pressure = integrate(solved.column(motions.len() + index), column);
+                    let own = velocities.iter().skip(column).step_by(motions.len());
+                    let haskind: C = potentials
+                        .iter()
+                        .zip(radiated)
+                        .zip(own)
+                        .zip(&weights)
+                        .map(|((((incident, by_normal), radiated), n), area)| {
+                            (incident * *n - radiated * by_normal) * *area
+                        })
+                        .sum();
+                    let factor = C::new(0.0, frequency * rho);
+                    made.excitation[index][*motion] = factor * pressure;
+                    made.haskind[index][*motion] = factor * haskind;
+                }
+            }
+        }
+        Ok(made)
+    }
+}
+
+/// Velocities of the surface along the normal out of the water, for unit velocity of each motion about an origin.
+fn normal_velocities(panel: &Panel, origin: &Vector3<f64>) -> [f64; MOTIONS] {
+    let normal = -panel.normal;
+    let moment = (panel.centroid - origin).cross(&normal);
+    [normal.x, normal.y, normal.z, moment.x, moment.y, moment.z]
+}
+
+/// A regular wave of amplitude 1 m.
+struct IncidentWave {
+    frequency: f64,
+    wave_number: f64,
+    gravity: f64,
+    depth: Option<f64>,
+}
+
+impl IncidentWave {
+    /// Its potential at a point, and its gradient.
+    fn at(&self, point: &Vector3<f64>, heading: f64) -> (C, Vector3<C>) {
+        let (sine, cosine) = heading.sin_cos();
+        let k = self.wave_number;
+        // cosh k(z + h)/cosh k h and its derivative, without large exponents
+        let (fall, slope) = self.depth.map_or(((k * point.z).exp(), k * (k * point.z).exp()), |depth| {
+            let scale = 1.0 / (1.0 + (-2.0 * k * depth).exp());
+            let (up, down) = ((k * point.z).exp(), (-k * (point.z + 2.0 * depth)).exp());
+            ((up + down) * scale, k * (up - down) * scale)
+        });
+        let at_surface =
+            C::new(0.0, -self.gravity / self.frequency) * C::from_polar(1.0, k * (point.x * cosine + point.y * sine));
+        let potential = at_surface * fall;
+        let along = C::new(0.0, k);
+        (potential, Vector3::new(potential * along * cosine, potential * along * sine, at_surface * slope))
+    }
+
+    /// The part of its potential on a panel that is in a symmetry class, and its derivative along the normal out of the water.
+    fn in_class(&self, panel: &Panel, heading: f64, class: SymmetryClass, images: &[[f64; 2]]) -> (C, C) {
+        let mut sum = (C::default(), C::default());
+        for image in images {
+            let share = class.factor(*image) / images.len() as f64;
+            let (potential, gradient) = self.at(&crate::rankine::mirrored(&panel.centroid, *image), heading);
+            let normal = -crate::rankine::mirrored(&panel.normal, *image);
+            let by_normal = gradient.x * normal.x + gradient.y * normal.y + gradient.z * normal.z;
+            sum = (sum.0 + potential * share, sum.1 + by_normal * share);
+        }
+        sum
+    }
+}
+
+/// Meshes of several bodies as one.
+impl HullMesh {
+    fn joined<'a>(meshes: impl ExactSizeIterator<Item = &'a HullMesh>) -> Result<HullMesh, DiffractionError> {
+        let count = meshes.len();
+        let (mut panels, mut lids) = (Vec::new(), Vec::new());
+        let mut mirrors = MirrorPlanes::default();
+        for mesh in meshes {
+            if count > 1 && mesh.mirrors() != MirrorPlanes::default() {
+                return Err(DiffractionError::MirroredBodies(count));
+            }
+            mirrors = mesh.mirrors();
+            panels.extend_from_slice(mesh.hull());
+            lids.extend_from_slice(mesh.lid());
+        }
+        HullMesh::from_panels(panels, lids, mirrors)
+    }
+}

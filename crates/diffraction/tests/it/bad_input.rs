@@ -1,0 +1,41 @@
+use nalgebra::Vector3;
+use windlass_diffraction::{DiffractionBody, DiffractionError, DiffractionProblem, HullMesh, MirrorPlanes, Water};
+
+const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
+
+/// The bottom of a box, 2 m deep.
+fn bottom() -> [Vector3<f64>; 4] {
+    // seen from the water below, counter-clockwise
+    [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]].map(|[x, y]| Vector3::new(x, y, -2.0))
+}
+
+fn problem(water: Water) -> Result<DiffractionProblem, DiffractionError> {
+    let mesh = HullMesh::new(&[bottom()], MirrorPlanes::default())?;
+    DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water)
+}
+
+#[test]
+fn wrong_panels_are_refused_with_their_number() {
+    let mesh = |quads: &[[Vector3<f64>; 4]], mirrors| HullMesh::new(quads, mirrors).unwrap_err();
+    let none = MirrorPlanes::default();
+    assert_eq!(mesh(&[], none), DiffractionError::NoPanels);
+    assert_eq!(mesh(&[bottom(), [bottom()[0]; 4]], none), DiffractionError::FlatPanel(2));
+    let not_finite = bottom().map(|corner| corner * f64::NAN);
+    assert_eq!(mesh(&[not_finite], none), DiffractionError::NotFinite(1));
+    let raised = bottom().map(|corner| corner + Vector3::new(0.0, 0.0, 2.5));
+    assert_eq!(mesh(&[bottom(), raised], none), DiffractionError::AboveWater { panel: 2, height: 0.5 });
+    let beyond = bottom().map(|corner| corner - Vector3::new(0.5, 0.0, 0.0));
+    assert_eq!(mesh(&[beyond], MirrorPlanes { x: true, y: false }), DiffractionError::BeyondMirror(1));
+}
+
+#[test]
+fn wrong_water_and_frequencies_are_refused() {
+    let water = |water: Water| problem(water).err();
+    assert_eq!(water(Water { density: 0.0, ..WATER }), Some(DiffractionError::Water));
+    assert_eq!(water(Water { gravity: f64::NAN, ..WATER }), Some(DiffractionError::Water));
+    let shallow = DiffractionError::Depth { depth: 1.5, draught: 2.0 };
+    assert_eq!(water(Water { depth: Some(1.5), ..WATER }), Some(shallow));
+    let problem = problem(WATER).unwrap();
+    assert_eq!(problem.solve(0.0, &[0.0]).unwrap_err(), DiffractionError::Frequency(0.0));
+    assert!(matches!(problem.solve(f64::INFINITY, &[0.0]), Err(DiffractionError::Frequency(_))));
+}

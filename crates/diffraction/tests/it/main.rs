@@ -1,0 +1,7 @@
+//! Tests of the public functions of the crate.
+#![allow(clippy::unwrap_used)]
+
+mod bad_input;
+mod cylinder;
+mod green_function;
+mod hemisphere;
