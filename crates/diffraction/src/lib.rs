@@ -1,4 +1,26 @@
-#![doc = include_str!("../README.md")]
+//! First-order radiation and diffraction of waves by floating bodies: potential flow by flat panels, in deep water or water of finite depth.
+//!
+//! Numbers are SI, time goes as `exp(-i omega t)`, z points up from the mean level. Every body has six motions about its own origin.
+//!
+//! # Example
+//!
+//! ```
+//! use nalgebra::Vector3;
+//! use windlass_diffraction::{DiffractionBody, DiffractionProblem, HullMesh, MirrorPlanes, Water};
+//!
+//! # fn main() -> Result<(), windlass_diffraction::DiffractionError> {
+//! // one panel of the bottom of a flat raft, 0.5 m deep, corners counter-clockwise as seen from the water
+//! let corner = |x, y| Vector3::new(x, y, -0.5);
+//! let quads = [[corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)]];
+//! let mesh = HullMesh::new(&quads, MirrorPlanes::default())?;
+//! let water = Water { density: 1025.0, gravity: 9.81, depth: Some(20.0) };
+//! let problem = DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water)?;
+//! let forces = problem.solve(0.8, &[0.0])?;
+//! assert!(forces.damping[(2, 2)] > 0.0);
+//! # Ok(())
+//! # }
+//! ```
+
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
