@@ -45,7 +45,7 @@ pub use output::buildg::take as take_row;
 use output::{
     add_column, animate, buildg, disposition, message, picture, plot, report_menu, result, series, statistic, store,
 };
-use post::{frequency_equations, frequency_posts, frequency_statistics, rep_select};
+use post::{code_check, frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::existing;
 use settings::{accepted, device, history, name_list, parameter, units};
 pub use solve::lines::ADDED as COLUMNS_OF_LINES;
@@ -268,6 +268,7 @@ static LISTED: &[&Command] = &[
     &t_pressure::T_PRESSURE,
     &conn_design::TABLE,
     &conn_design::GEOMETRY,
+    &code_check::CODE_CHECK,
     &conn_design::PROPERTIES,
     &excursion::MOVE,
     &excursion::WATCH,

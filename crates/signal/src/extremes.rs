@@ -167,8 +167,7 @@ pub struct Gumbel {
 }
 
 impl Gumbel {
-    /// The distribution of greatest likelihood: the scale solves `s = mean x - sum x e^(-x/s) / sum e^(-x/s)`, and the
-    /// location is `-s ln(mean e^(-x/s))` (N. L. Johnson, S. Kotz, "Continuous Univariate Distributions", ch. 22).
+    /// The distribution of greatest likelihood of the maxima of blocks.
     ///
     /// # Errors
     /// Fewer blocks than [`FEWEST_BLOCKS`], maxima that are all alike.
@@ -177,6 +176,20 @@ impl Gumbel {
         let got = maxima.len();
         if got < FEWEST_BLOCKS {
             return Err(SeriesError::TooFew { what: "a Gumbel fit (of maxima of blocks)", need: FEWEST_BLOCKS, got });
+        }
+        Gumbel::fit_likelihood(maxima)
+    }
+
+    /// The same of however many maxima: the scale solves `s = mean x - sum x e^(-x/s) / sum e^(-x/s)`, and the
+    /// location is `-s ln(mean e^(-x/s))` (N. L. Johnson, S. Kotz, "Continuous Univariate Distributions", ch. 22).
+    ///
+    /// # Errors
+    /// Maxima that are not finite, all alike, or none.
+    pub fn fit_likelihood(maxima: &[f64]) -> Result<Gumbel, SeriesError> {
+        finite(maxima)?;
+        let got = maxima.len();
+        if got == 0 {
+            return Err(SeriesError::TooFew { what: "a Gumbel fit", need: 1, got });
         }
         let least = maxima.iter().fold(f64::INFINITY, |m, x| m.min(*x));
         let mean = maxima.iter().map(|x| x - least).sum::<f64>() / got as f64;

@@ -19,6 +19,7 @@
 pub mod band_filter;
 pub mod cycle;
 pub mod distribution;
+pub mod ensemble;
 pub mod extremes;
 pub mod fatigue;
 pub mod harmonics;

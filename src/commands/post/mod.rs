@@ -1,6 +1,7 @@
 //! What is taken from the results of a run: tables, fatigue, statistics.
 
 pub(crate) mod body_forces;
+pub(crate) mod code_check;
 pub(crate) mod connector_forces;
 pub(crate) mod drafts;
 pub(crate) mod element_forces;

@@ -4,6 +4,89 @@ use super::*;
 
 pub(super) static REPORTS: &[ReportColumns] = &[
     ReportColumns {
+        printed_by: "CODE_CHECK -LIST",
+        titles: &["Design Codes"],
+        columns: &[
+            column("Code", NONE, "name of the code with its edition"),
+            column("Check", NONE, "what is checked: line tension, anchor, strength, design tension or fatigue life"),
+            column("For", NONE, "analysis, condition, class and kind that the factor is for"),
+            column("Holds When", NONE, "the condition, with its factors"),
+            column(
+                "How Sure",
+                NONE,
+                "confirmed, second hand or from memory; not given where your own file has to give it",
+            ),
+            column("Clause", NONE, "clause or table of the code"),
+            column("Source", NONE, "where the factor was read"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "CODE_CHECK",
+        titles: &["@Code Check of Lines"],
+        columns: &[
+            column("Tension: T Mean", FORCE, "mean tension of the segment over the run, or its tension at rest"),
+            column("Tension: T Dyn", FORCE, "characteristic tension less the mean"),
+            column("Tension: T Char", FORCE, "characteristic tension: what the check judges"),
+            column("Is", NONE, "how the characteristic tension was found: MPM, largest"),
+            column("n", NONE, "number of maxima between up-crossings of the mean"),
+            column("95% of MPM: Low", FORCE, "lower end of the 95 per cent interval of the most probable maximum"),
+            column("95% of MPM: High", FORCE, "upper end of that interval"),
+            column(
+                "Strength",
+                FORCE,
+                "breaking load with its corrosion, or the characteristic strength of a partial-factor code",
+            ),
+            column("Safety Factor: S/T", NONE, "strength over characteristic tension"),
+            column("Safety Factor: Required", NONE, "the factor that the code requires"),
+            column(
+                "Utilisation",
+                NONE,
+                "required over actual factor, or the factored tension over the strength: 1 and less holds",
+            ),
+            column("Verdict", NONE, "pass, fail, or UNCONFIRMED where a factor of the page is from memory"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "CODE_CHECK -ANCHOR",
+        titles: &["@Code Check of Anchors"],
+        columns: &[
+            column("Anchor", NONE, "kind of anchor"),
+            column("Direction", NONE, "direction of the capacity"),
+            column("Largest Pull: Horizontal", FORCE, "largest horizontal pull at the anchor"),
+            column("Largest Pull: Vertical", FORCE, "largest vertical pull at the anchor, positive upward"),
+            column("Largest Pull: Resultant", FORCE, "largest tension at the anchor"),
+            column("Uplift", NONE, "whether the line pulls the anchor upward"),
+            column("Capacity", FORCE, "holding capacity, as given"),
+            column("Safety Factor: R/F", NONE, "capacity over pull in the direction of the capacity"),
+            column("Safety Factor: Required", NONE, "the factor that the code requires"),
+            column("Utilisation", NONE, "required over actual factor: 1 and less holds"),
+            column("Verdict", NONE, "pass, fail, or UNCONFIRMED where a factor of the page is from memory"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "CODE_CHECK -LIFE",
+        titles: &["@Code Check of Fatigue Life"],
+        columns: &[
+            column("Curve", NONE, "fatigue curve of the segment"),
+            column("Damage a Year", NONE, "damage of a year by Miner's sum, environments weighted by their durations"),
+            column("Life, Years", NONE, "years until the damage is 1"),
+            column("Factor", NONE, "factor on the design life that the code requires"),
+            column("Utilisation", NONE, "design life times the factor over the life: 1 and less holds"),
+            column("Verdict", NONE, "pass, fail, or UNCONFIRMED where a number of the page is from memory"),
+        ],
+    },
+    ReportColumns {
+        printed_by: "CODE_CHECK -OFFSET, -GROUNDED, -CLEARANCE",
+        titles: &["@Check of Limits"],
+        columns: &[
+            column("What", NONE, "what is limited"),
+            column("Value", LENGTH, "its value: the largest offset, or the least length or distance"),
+            column("Must Be", NONE, "at most or at least"),
+            column("Limit", LENGTH, "the limit, as given"),
+            column("Verdict", NONE, "pass or fail; UNCONFIRMED beside a factor from memory"),
+        ],
+    },
+    ReportColumns {
         printed_by: "TABLE of CONN_DESIGN",
         titles: &["Properties of Line @"],
         columns: &[

@@ -334,7 +334,7 @@ fn on_three(motion: &[[f64; 6]; 3]) -> (Vec<[Vector3<f64>; 2]>, SupportTangent) 
     let sling = Sling(2e4);
     let mut held = supports(&cradles);
     let position = placed(2, Vector3::new(-0.5, 0.3, 0.4));
-    held.push(Support { position: position, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
+    held.push(Support { position, velocity: Vector3::zeros(), target: SupportTarget::Node(0), law: &sling });
     let fluid = UniformFluid::vacuum();
     let world = LineEnvironment { supports: &held, ..LineEnvironment::new(&fluid, 9.81) };
     let (a, b) = (Vector3::zeros(), Vector3::new(30.0, 0.0, -0.5));

@@ -132,7 +132,7 @@ fn tensions(
 }
 
 /// The places of the values of a series where it turns, and of its ends.
-fn turning_points(series: &[f64]) -> impl Iterator<Item = usize> + '_ {
+pub(super) fn turning_points(series: &[f64]) -> impl Iterator<Item = usize> + '_ {
     let turns = |at: &usize| match (at.checked_sub(1).and_then(|b| series.get(b)), series.get(*at), series.get(at + 1))
     {
         (Some(before), Some(here), Some(after)) => (here - before) * (after - here) <= 0.0,

@@ -11,6 +11,8 @@ mod fatigue;
 mod fenders;
 mod forces;
 mod groups;
+mod line_loads;
+mod line_paths;
 mod motions;
 mod points;
 mod relative;
@@ -25,6 +27,10 @@ pub use fatigue::{ScatterExposure, line_damages, scatter};
 pub use fenders::{FenderPeak, fender_peaks, fender_table};
 pub use forces::body_forces;
 pub use groups::{GroupName, group_forces, load_groups};
+pub use line_loads::{
+    AnchorRecord, LineRecord, LostLines, is_mooring_line, line_records, lost_lines, segment_tensions,
+};
+pub use line_paths::{PathPoint, body_panels, body_panels_at, path_at, place_at, static_path};
 pub use motions::{MotionOptions, trajectory};
 pub use points::{TrackedPoint, points};
 pub use relative::{least_distance, relative_motions};
