@@ -21,7 +21,7 @@
 //! model.bodies.insert("B".into(), Body { name: "B".into(), linear: Some(linear), ..Body::default() });
 //! model.parts.insert("B".into(), part);
 //! find_equilibrium_with_rebuilds(&mut model, &EquilibriumOptions::default())?;
-//! assert!((model.bodies["B"].place.shift[2] + 0.2).abs() < 1e-9);
+//! assert!((model.bodies["B"].position.shift[2] + 0.2).abs() < 1e-9);
 //! # Ok::<(), windlass_solve::SolveError>(())
 //! ```
 
