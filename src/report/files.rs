@@ -423,7 +423,7 @@ impl JobFolder {
     /// Writes a file whole or not at all; returns where it went.
     ///
     /// # Errors
-    /// As [`JobFolder::place`] and [`FilePlace::write`].
+    /// As [`JobFolder::position`] and [`FilePlace::write`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<PathBuf, FileError> {
         let position = self.position(name)?;
         position.write(bytes)?;

@@ -1,7 +1,7 @@
 //! Studies: many cases of one model, their results in one table.
 //!
-//! A case is a row of a table; its values become variables of a script. The script keeps results ([`KeptResult`]) and rows
-//! of lines ([`LineRow`]). This crate knows neither commands nor engines: the program runs the cases.
+//! A case is a row of a table; its values become variables of a script. The script keeps results ([`kept::KeptResult`]) and rows
+//! of lines ([`kept::LineRow`]). This crate knows neither commands nor engines: the program runs the cases.
 //!
 //! # Example
 //!

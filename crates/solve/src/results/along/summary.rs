@@ -163,7 +163,7 @@ pub struct LineExtreme {
     pub time: f64,
 }
 
-/// What a dynamic line comes to over the instants of a run: the largest of what [`LineSummary`] has of each.
+/// What a dynamic line comes to over the instants of a run: the largest of what `LineSummary` has of each.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunSummary {
     /// Largest effective tension (N).
