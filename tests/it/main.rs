@@ -41,6 +41,7 @@ mod connectors {
     mod bathymetry_lines;
     mod class_records;
     mod closed_form_lines;
+    mod code_check;
     mod connector_closed_form;
     mod dynamic_line_cantilever;
     mod dynamic_line_checks;

@@ -58,8 +58,8 @@ pub(super) struct CheckedMooring {
     pub condition: Condition,
     pub lost: Vec<String>,
     pub lines: Vec<CheckedLine>,
-    /// Why a most probable maximum was not to be had.
-    pub remarks: Vec<String>,
+    /// Why no most probable maximum was found, and the segments concerned.
+    pub without_mpm: Vec<(String, Vec<String>)>,
     pub is_run: bool,
     /// Instants of the run that are checked.
     pub events: Vec<RunEvent>,
@@ -129,24 +129,25 @@ pub(super) fn of_run(job: &Job, call: &Call, query: &CheckQuery) -> Checked {
     let duration = 3600.0 * args.option_number(&DURATION).unwrap_or(3.0);
     let wanted = args.option_choice(&CHARACTERISTIC, const { CHARACTERISTIC.choice("WHAT") });
     let usual = if condition == Condition::Transient { Characteristic::Largest } else { Characteristic::Mpm };
-    let (mut lines, mut remarks) = (Vec::new(), Vec::new());
+    let mut lines = Vec::new();
+    let mut without_mpm: Vec<(String, Vec<String>)> = Vec::new();
     for record in records {
         let mut segments = Vec::new();
         for (index, (segment, tension)) in record.segments.into_iter().zip(&record.tensions).enumerate() {
             let (load, remark) = characteristic(&record.times, tension, duration, wanted.unwrap_or(usual))
                 .map_err(|error| Diagnostic::error(format!("{}, segment {}: {error}", record.name, index + 1), span))?;
             if let Some(error) = remark {
-                remarks.push(format!(
-                    "{}, segment {}: the largest tension is checked, since {error}",
-                    record.name,
-                    index + 1
-                ));
+                let (who, why) = (format!("{} {}", record.name, index + 1), error.to_string());
+                match without_mpm.iter_mut().find(|(reason, _)| *reason == why) {
+                    Some((_, segments)) => segments.push(who),
+                    None => without_mpm.push((why, vec![who])),
+                }
             }
             segments.push((segment, load));
         }
         lines.push(CheckedLine { name: record.name, segments, anchor: record.anchor, grounded: record.grounded });
     }
-    Ok(CheckedMooring { analysis, condition, lost, lines, remarks, is_run: true, events: instants, duration })
+    Ok(CheckedMooring { analysis, condition, lost, lines, without_mpm, is_run: true, events: instants, duration })
 }
 
 fn no_line(query: &CheckQuery) -> Box<Diagnostic> {
@@ -248,7 +249,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
         condition,
         lost,
         lines,
-        remarks: Vec::new(),
+        without_mpm: Vec::new(),
         is_run: false,
         events: Vec::new(),
         duration: 0.0,

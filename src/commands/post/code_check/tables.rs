@@ -114,7 +114,13 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
     if bare {
         lines.warn("a breaking load follows from a bare diameter: give it (-BTEN, a line type) before a design is judged by it");
     }
-    lines.add_notes(mooring.remarks.iter().map(String::as_str));
+    for (reason, segments) in &mooring.without_mpm {
+        lines.warn(format!(
+            "{}: the largest tension of the run is checked in place of the most probable maximum of the storm, which may be \
+             larger: {reason}; run longer, or choose -CHARACTERISTIC LARGEST",
+            segments.join(", ")
+        ));
+    }
     let mut tables = vec![lines];
     let anchors = anchors(query, mooring, &mut provenances)?;
     tables.extend(anchors);
