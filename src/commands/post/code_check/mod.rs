@@ -250,7 +250,7 @@ fn library(job: &Job, args: &Args) -> Outcome<CodeLibrary> {
 
 /// An error of a code at the place of an option.
 fn refused(error: &CodeError, args: &Args) -> Box<Diagnostic> {
-    let span = args.option(&CODE).map_or(args.span, |g| g.span);
+    let span = args.option(&CODE).map_or(args.span, |given| given.position(const { CODE.word("NAME") }));
     let mut made = Diagnostic::error(error.to_string(), span);
     if let CodeError::NoCode { near, .. } = error {
         made.help.push(format!("codes: {}", near.join(", ")));

@@ -368,7 +368,8 @@ fn limits(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> Outcome<Op
     for given in query.each(&OFFSET) {
         let name = given.word(const { OFFSET.word("BODY") }).unwrap_or_default();
         let [limit, x, y] = const { OFFSET.numbers(["LIMIT", "X", "Y"]) }.map(|key| given.number(key));
-        let (value, from) = super::loads::largest_offset(job, mooring, (name, given.span), [x, y])?;
+        let span = given.position(const { OFFSET.word("BODY") });
+        let (value, from) = super::loads::largest_offset(job, mooring, (name, span), [x, y])?;
         let text = format!("offset of {name} from ({:.3}, {:.3}) m", from[0], from[1]);
         add(text, Some(value), limit.unwrap_or(f64::NAN), Side::AtMost)?;
     }
@@ -382,7 +383,8 @@ fn limits(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> Outcome<Op
         let other = given.word(const { CLEARANCE.word("OTHER") }).unwrap_or_default();
         let least = given.number(const { CLEARANCE.number("LEAST") }).unwrap_or(f64::NAN);
         let segment = given.integer(const { CLEARANCE.integer("SEGMENT") }).and_then(|n| usize::try_from(n).ok());
-        let value = super::loads::least_clearance(job, mooring, (line, other, segment), given.span)?;
+        let span = given.position(const { CLEARANCE.word("OTHER") });
+        let value = super::loads::least_clearance(job, mooring, (line, other, segment), span)?;
         let of = segment.map_or_else(|| line.to_string(), |n| format!("segment {n} of {line}"));
         add(format!("distance of {of} from {other}"), Some(value), least, Side::AtLeast)?;
     }
