@@ -98,7 +98,7 @@ pub(crate) fn last_run(job: &Job, span: Span) -> Outcome<&Run> {
 /// The run a record is about, and its events.
 pub(crate) fn run_and_events<'a>(job: &'a Job, args: &Args) -> Outcome<(&'a Run, Vec<RunEvent>)> {
     let run = last_run(job, args.span)?;
-    let given = args.option_if_declared(&EVENTS);
+    let given = args.option(&EVENTS);
     let window = given.and_then(|g| {
         let [begin, end] = const { EVENTS.numbers(["BEG", "END"]) }.map(|key| g.number(key));
         let increment = g.number_if_declared(const { EVENTS.number("INC") });
@@ -126,7 +126,7 @@ pub(crate) fn asked_behind_transient<'a>(job: &'a Job, args: &Args) -> Outcome<(
 
 /// The time before which statistics of a result leave the last run out (s): none where it has no transient, or -EVENTS chooses instants.
 pub(crate) fn transient_of(job: &Job, args: &Args) -> Option<f64> {
-    let run = job.run.as_ref().filter(|_| args.option_if_declared(&EVENTS).is_none());
+    let run = job.run.as_ref().filter(|_| !args.has(&EVENTS));
     run.filter(|run| run.settings.transient > 0.0).map(Run::statistics_start)
 }
 

@@ -6,7 +6,7 @@ mod tables;
 use crate::commands::menu;
 use crate::commands::name_filter::NameFilter;
 use crate::commands::output::disposition::{BOTH, DISPOSE, HARD, WIDE, print_or_dispose};
-use crate::commands::post::prcpost::{CONNECTORS, transient_of};
+use crate::commands::post::prcpost::{CONNECTORS, EVENTS, transient_of};
 use crate::commands::settings::device::{existing, read_input};
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use loads::{Characteristic, CheckedMooring};
@@ -163,6 +163,7 @@ const OPTIONS: &[OptionSpec] = &[
     CLASS,
     MOORING,
     SPARE,
+    EVENTS,
     CHARACTERISTIC,
     DURATION,
     PRETENSION,
@@ -198,7 +199,8 @@ static SPEC: CommandSpec = CommandSpec {
     example: "MEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P 2000 10 10 10\n~W B_CAT 4 -LEN 4000 -DEP 500\n\
               CONNECTOR A -ANC 0 3900 ~W *P\nCONNECTOR B -ANC 180 3900 ~W *P\nEND\nCONN_DESIGN\nCODE_CHECK -CODE API_RP_2SK_3\n\
               CODE_CHECK -CODE DNV_OS_E301_2015 -LIST -DISPOSE\nVLIST\nEND\nEND\n&INSTATE -LOCATE BUOY 5\n&ENV -TIME 60 1\nTDOM\nPRCPOST\n\
-              CODE_CHECK -CODE API_RP_2SK_3 -CORROSION 0.1 -ANCHOR DRAG LATERAL 900 -MOORING PERMANENT -UNCONFIRMED -OFFSET BUOY 20\nEND",
+              CODE_CHECK -CODE API_RP_2SK_3 -CORROSION 0.1 -ANCHOR DRAG LATERAL 900 -MOORING PERMANENT -UNCONFIRMED -OFFSET BUOY 20\n\
+              CODE_CHECK -CODE API_RP_2SK_3 -EVENTS 10 60\nEND",
     ..CommandSpec::new("CODE_CHECK", "checks lines, anchors and limits by a design code")
 };
 
@@ -282,6 +284,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let query = CheckQuery { args, code, options };
     let over_run = matches!(job.menus.last(), Some(Menu::Post));
+    if let Some(given) = args.option(&EVENTS).filter(|_| !over_run) {
+        return Err(Diagnostic::error("-EVENTS chooses instants of a run", given.span)
+            .help("CODE_CHECK of CONN_DESIGN checks the lines between their ends as they are; that of PRCPOST a run"));
+    }
     let mooring = if over_run { loads::of_run(job, call, &query)? } else { loads::of_state(job, call, &query)? };
     let (tables, rows) = tables::check(job, &query, &mooring)?;
     let transient = if over_run { transient_of(job, args) } else { None };
