@@ -59,6 +59,25 @@ impl HullMesh {
         if hull_count == 0 { Err(DiffractionError::NoPanels) } else { Ok(HullMesh { panels, hull_count, mirrors }) }
     }
 
+    /// Meshes of several bodies as one.
+    ///
+    /// # Errors
+    /// No body; mirror planes of one of several bodies.
+    pub(crate) fn joined<'a>(meshes: impl ExactSizeIterator<Item = &'a HullMesh>) -> Result<Self, DiffractionError> {
+        let count = meshes.len();
+        let (mut panels, mut lids) = (Vec::new(), Vec::new());
+        let mut mirrors = MirrorPlanes::default();
+        for mesh in meshes {
+            if count > 1 && mesh.mirrors() != MirrorPlanes::default() {
+                return Err(DiffractionError::MirroredBodies(count));
+            }
+            mirrors = mesh.mirrors();
+            panels.extend_from_slice(mesh.hull());
+            lids.extend_from_slice(mesh.lid());
+        }
+        HullMesh::from_panels(panels, lids, mirrors)
+    }
+
     /// The same hull with its inner waterplane closed by a lid, which takes irregular frequencies away [LEE-NEWMAN-ZHU-1996]; none where its
     /// waterline is not one ring about a point from which all of it is seen.
     pub fn with_lid(&self) -> Option<Self> {

@@ -2,9 +2,9 @@
 
 use crate::error::DiffractionError;
 use crate::gmres::{self, Columns};
-use crate::mesh::{HullMesh, MirrorPlanes};
+use crate::mesh::HullMesh;
 use crate::panel::Panel;
-use crate::rankine::{RankinePart, rankine_parts};
+use crate::rankine::{RankinePart, mirrored, rankine_parts};
 use crate::symmetry::SymmetryClass;
 use crate::wave_system::{WaveKernel, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
@@ -240,29 +240,11 @@ impl IncidentWave {
         let mut sum = (C::default(), C::default());
         for image in images {
             let share = class.factor(*image) / images.len() as f64;
-            let (potential, gradient) = self.at(&crate::rankine::mirrored(&panel.centroid, *image), heading);
-            let normal = -crate::rankine::mirrored(&panel.normal, *image);
+            let (potential, gradient) = self.at(&mirrored(&panel.centroid, *image), heading);
+            let normal = -mirrored(&panel.normal, *image);
             let by_normal = gradient.x * normal.x + gradient.y * normal.y + gradient.z * normal.z;
             sum = (sum.0 + potential * share, sum.1 + by_normal * share);
         }
         sum
-    }
-}
-
-/// Meshes of several bodies as one.
-impl HullMesh {
-    fn joined<'a>(meshes: impl ExactSizeIterator<Item = &'a HullMesh>) -> Result<HullMesh, DiffractionError> {
-        let count = meshes.len();
-        let (mut panels, mut lids) = (Vec::new(), Vec::new());
-        let mut mirrors = MirrorPlanes::default();
-        for mesh in meshes {
-            if count > 1 && mesh.mirrors() != MirrorPlanes::default() {
-                return Err(DiffractionError::MirroredBodies(count));
-            }
-            mirrors = mesh.mirrors();
-            panels.extend_from_slice(mesh.hull());
-            lids.extend_from_slice(mesh.lid());
-        }
-        HullMesh::from_panels(panels, lids, mirrors)
     }
 }

@@ -15,19 +15,24 @@ struct CylinderMesh {
 }
 
 impl CylinderMesh {
-    /// The quarter between two mirror planes. The columns stand on a radius that gives the polygon the area of the circle.
+    /// The quarter between two mirror planes.
     fn build(self) -> HullMesh {
+        HullMesh::new(&self.quads(1, 0.0), MirrorPlanes { x: true, y: true }).unwrap()
+    }
+
+    /// Panels of some quarters about (x, 0). The columns stand on a radius that gives the polygon the area of the circle.
+    fn quads(self, quarters: usize, x: f64) -> Vec<[Vector3<f64>; 4]> {
         let clean = |x: f64| if x.abs() < 1e-15 { 0.0 } else { x };
         let step = 0.5 * PI / self.turns as f64;
         let outer = (step / step.sin()).sqrt();
         let point = |r: f64, j: usize, z: f64| {
             let angle = step * j as f64;
-            Vector3::new(clean(outer * r * angle.cos()), clean(outer * r * angle.sin()), z)
+            Vector3::new(x + clean(outer * r * angle.cos()), clean(outer * r * angle.sin()), z)
         };
         let height = |k: usize| -self.draught * 0.5 * (1.0 - (PI * k as f64 / self.rows as f64).cos());
         let radius = |i: usize| clean((PI * i as f64 / (2.0 * self.rings as f64)).cos());
         let mut quads = Vec::new();
-        for j in 0..self.turns {
+        for j in 0..quarters * self.turns {
             for k in 0..self.rows {
                 let [top, bottom] = [height(k), height(k + 1)];
                 quads.push([
@@ -43,7 +48,7 @@ impl CylinderMesh {
                 quads.push([point(out, j, z), point(inner, j, z), point(inner, j + 1, z), point(out, j + 1, z)]);
             }
         }
-        HullMesh::new(&quads, MirrorPlanes { x: true, y: true }).unwrap()
+        quads
     }
 }
 
@@ -93,5 +98,33 @@ fn bottom_mounted_cylinder_meets_closed_form() {
         let exact = Complex::new(n[2], n[3]);
         let made = found.excitation[0][0] / 9810.0;
         assert!((made - exact).norm() < 0.005 * exact.norm(), "k {}: {made} for {exact}", n[0]);
+    }
+}
+
+#[test]
+fn two_cylinders_shelter_each_other_as_exact_series() {
+    let cylinder = CylinderMesh { draught: 2.0, rows: 10, rings: 0, turns: 8 };
+    let body = |x: f64| DiffractionBody {
+        mesh: HullMesh::new(&cylinder.quads(4, x), MirrorPlanes::default()).unwrap(),
+        origin: Vector3::new(x, 0.0, 0.0),
+    };
+    let water = Water { density: 1000.0, gravity: 9.81, depth: Some(2.0) };
+    let problem = DiffractionProblem::new(&[body(-2.0), body(2.0)], water).unwrap();
+    for n in rows(include_str!("../data/two_cylinders.csv")) {
+        let nu = n[0] * (2.0 * n[0]).tanh();
+        let found = problem.solve((nu * 9.81).sqrt(), &[n[1].to_radians()]).unwrap();
+        let exact: Vec<_> = n[2..].chunks(2).map(|pair| Complex::new(pair[0], pair[1])).collect();
+        let largest = exact.iter().fold(0.0, |most: f64, x| most.max(x.norm()));
+        for (mode, exact) in [0, 1, 6, 7].into_iter().zip(exact) {
+            let [pressure, haskind] = [&found.excitation, &found.haskind].map(|forces| forces[0][mode] / 9810.0);
+            for made in [pressure, haskind] {
+                assert!(
+                    (made - exact).norm() < 0.01 * largest,
+                    "k {}, {} deg, mode {mode}: {made} for {exact}",
+                    n[0],
+                    n[1]
+                );
+            }
+        }
     }
 }

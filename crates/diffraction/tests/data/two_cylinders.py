@@ -1,0 +1,48 @@
+"""Wave forces on two bottom-mounted cylinders of radius 1 that stand at (-2, 0) and (2, 0) in water 2 deep, by the exact series of Linton
+and Evans, J. Fluid Mech. 215, 1990, equations 2.11 and 2.14: total force over that of a cylinder alone, which MacCamy and Fuchs give.
+Writes two_cylinders.csv with X1 and X2 of each cylinder over rho g. Needs numpy and scipy."""
+import csv
+import numpy as np
+from scipy.special import h1vp, hankel1, jvp
+
+CENTRES = np.array([[-2.0, 0.0], [2.0, 0.0]])
+DEPTH, TERMS = 2.0, 12
+
+
+def coefficients(k, heading):
+    orders = np.arange(-TERMS, TERMS + 1)
+    count = len(orders)
+    z = jvp(orders, k) / h1vp(orders, k)
+    matrix = np.eye(2 * count, dtype=complex)
+    right = np.zeros(2 * count, dtype=complex)
+    for one in range(2):
+        phase = np.exp(1j * k * (CENTRES[one] @ [np.cos(heading), np.sin(heading)]))
+        right[one * count : (one + 1) * count] = -phase * np.exp(1j * orders * (np.pi / 2 - heading))
+        other = 1 - one
+        # from the other cylinder to this one
+        arm = CENTRES[one] - CENTRES[other]
+        distance, angle = np.hypot(*arm), np.arctan2(arm[1], arm[0])
+        m, n = np.meshgrid(orders, orders, indexing="ij")
+        block = z[None, :] * np.exp(1j * (n - m) * angle) * hankel1(n - m, k * distance)
+        matrix[one * count : (one + 1) * count, other * count : (other + 1) * count] = block
+    return np.linalg.solve(matrix, right).reshape(2, count)
+
+
+with open("two_cylinders.csv", "w", newline="") as file:
+    file.write("# Two bottom-mounted cylinders by the series of Linton and Evans (two_cylinders.py); radius 1, at x = -2 and 2, depth 2\n")
+    writer = csv.writer(file)
+    writer.writerow("k,heading deg,Re X1 a,Im X1 a,Re X2 a,Im X2 a,Re X1 b,Im X1 b,Re X2 b,Im X2 b".split(","))
+    for k in [0.6, 1.0, 1.5]:
+        for degrees in [0, 45]:
+            found = coefficients(k, np.radians(degrees))
+            # on the surface phi is proportional to sum A_n/H_n'(k) exp(i n theta): the force takes n = 1 and -1
+            unit = 4j * np.tanh(k * DEPTH) / (k * k * h1vp(1, k))
+            row = [k, degrees]
+            for own in found:
+                plus, minus = own[TERMS + 1], own[TERMS - 1]
+                x, y = unit * (plus - minus) / 2, unit * 1j * (plus + minus) / 2
+                row += [f"{v:.8g}" for v in (x.real, x.imag, y.real, y.imag)]
+            writer.writerow(row)
+    # the factor of a cylinder alone: X1 of MacCamy and Fuchs for A_n = -exp(i n pi/2)
+    for k in [0.6, 1.0]:
+        print(k, 4j * np.tanh(k * DEPTH) / (k * k * h1vp(1, k)) * (-1j - 1j) / 2)
