@@ -8,9 +8,10 @@ use windlass::report::output::Output;
 use windlass::session::Session;
 use windlass_model::Model;
 
-/// The model that records make.
+/// The model that records make; the job has a folder of its own, since tests run side by side.
 pub fn model_from_records(records: &str) -> Model {
-    let job = JobFolder::new("bench".into(), None, false);
+    let folder = tempfile::tempdir().unwrap();
+    let job = JobFolder::new(folder.path().join("job"), None, false);
     let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
     session.keep_reports = true;
     session.open("bench", records.to_string());
