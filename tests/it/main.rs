@@ -89,6 +89,7 @@ mod floating {
     mod moses_weights;
     mod networks;
     mod piece_loads;
+    mod semi_study;
     mod side_by_side;
     mod steady_loads;
     mod structure;

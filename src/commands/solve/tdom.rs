@@ -388,13 +388,18 @@ fn warn_of_still_pieces(job: &mut Job, made: &Run, span: Span) {
     if made.sea.is_none() {
         return;
     }
-    let pieces =
-        made.model.bodies.values().flat_map(|b| pieces_without_wave_load(&made.model, b)).map(|p| p.name.as_str());
-    let list: Vec<&str> = pieces.collect();
-    if !list.is_empty() {
+    for (name, body) in &made.model.bodies {
+        let list: Vec<&str> = pieces_without_wave_load(&made.model, body).map(|p| p.name.as_str()).collect();
+        if list.is_empty() {
+            continue;
+        }
+        let remedy = match body.database {
+            Some(_) => format!("-DIFTYPE 3DDIF says that they are in the database of {name}"),
+            None => "-DIFTYPE FK gives them the pressure of the waves".to_owned(),
+        };
         let text =
             format!("waves of first order exert nothing on {}: neither members nor of a database", list.join(" "));
-        job.warn(format!("{text}; -DIFTYPE FK gives them the pressure of the waves"), span);
+        job.warn(format!("{text}; {remedy}"), span);
     }
 }
 
