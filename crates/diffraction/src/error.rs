@@ -45,6 +45,14 @@ pub enum DiffractionError {
     /// A system of equations without a solution in numbers.
     #[error("the system of equations at {0:.6} rad/s has no solution that is finite")]
     NoSolution(f64),
+    /// Matrices of another size than the motions.
+    #[error("mass, stiffness and damping have to be matrices of {0} rows and columns")]
+    MatrixSize(usize),
+    /// Equations of motion without a solution.
+    #[error(
+        "the equations of motion at {0:.6} rad/s have no solution that is finite: a motion is without mass and stiffness"
+    )]
+    NoMotions(f64),
     /// The user interrupted.
     #[error("interrupted")]
     Interrupted,

@@ -26,18 +26,23 @@
 
 mod dispersion;
 mod error;
+mod free_body;
 mod gauss;
 mod gmres;
 pub mod green;
+mod incident_wave;
 mod lid;
 mod mesh;
 mod panel;
 mod problem;
 mod rankine;
 mod symmetry;
+mod wave_solution;
 mod wave_system;
 
 pub use error::DiffractionError;
+pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
 pub use panel::Panel;
 pub use problem::{DiffractionBody, DiffractionProblem, FrequencyForces, MOTIONS, Water};
+pub use wave_solution::{FarFieldDrift, WaveSolution};

@@ -2,6 +2,7 @@
 
 use crate::error::DiffractionError;
 use crate::panel::Panel;
+use crate::rankine::mirrored;
 use nalgebra::Vector3;
 
 /// How far above the mean level a corner may be, as a share of its panel's diagonal: rounding of a cut.
@@ -106,6 +107,20 @@ impl HullMesh {
         &self.panels
     }
 
+    /// The whole hull: its panels and those of its images.
+    pub(crate) fn surface(&self) -> Vec<SurfaceElement> {
+        let of_image = |image: [f64; 2]| {
+            self.hull().iter().enumerate().map(move |(panel, own)| SurfaceElement {
+                panel,
+                image,
+                centroid: mirrored(&own.centroid, image),
+                normal: -mirrored(&own.normal, image),
+                area: own.area,
+            })
+        };
+        self.mirrors.images().into_iter().flat_map(of_image).collect()
+    }
+
     /// Its mirror planes.
     pub fn mirrors(&self) -> MirrorPlanes {
         self.mirrors
@@ -122,6 +137,21 @@ impl HullMesh {
         }
         sums
     }
+}
+
+/// A panel of the hull, or an image of one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SurfaceElement {
+    /// Index of the panel.
+    pub panel: usize,
+    /// Signs of x and y.
+    pub image: [f64; 2],
+    /// Centroid (m).
+    pub centroid: Vector3<f64>,
+    /// Unit normal out of the water.
+    pub normal: Vector3<f64>,
+    /// Area (m2).
+    pub area: f64,
 }
 
 fn checked_panel(number: usize, corners: &[Vector3<f64>; 4], mirrors: MirrorPlanes) -> Result<Panel, DiffractionError> {

@@ -2,10 +2,12 @@
 
 use crate::error::DiffractionError;
 use crate::gmres::{self, Columns};
+use crate::incident_wave::IncidentWave;
 use crate::mesh::HullMesh;
 use crate::panel::Panel;
-use crate::rankine::{RankinePart, mirrored, rankine_parts};
+use crate::rankine::{RankinePart, rankine_parts};
 use crate::symmetry::SymmetryClass;
+use crate::wave_solution::WaveSolution;
 use crate::wave_system::{WaveKernel, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
 
@@ -123,6 +125,14 @@ impl DiffractionProblem {
     /// # Errors
     /// A frequency (rad/s) that is not above zero; equations whose solution is not finite.
     pub fn solve(&self, frequency: f64, headings: &[f64]) -> Result<FrequencyForces, DiffractionError> {
+        Ok(self.solve_waves(frequency, headings)?.forces)
+    }
+
+    /// As [`DiffractionProblem::solve`], with the potentials on the hulls, which mean drift is made from.
+    ///
+    /// # Errors
+    /// As of [`DiffractionProblem::solve`].
+    pub fn solve_waves(&self, frequency: f64, headings: &[f64]) -> Result<WaveSolution, DiffractionError> {
         if !(frequency > 0.0 && frequency.is_finite()) {
             return Err(DiffractionError::Frequency(frequency));
         }
@@ -147,6 +157,10 @@ impl DiffractionProblem {
             haskind: vec![vec![C::default(); count]; headings.len()],
             iterations: 0,
         };
+        let surface = self.mesh.surface();
+        let mut radiated = vec![Vec::new(); count];
+        let mut normal_motions = vec![Vec::new(); count];
+        let mut diffracted = vec![vec![C::default(); surface.len()]; headings.len()];
         for (((class, system), motions), velocities) in
             self.classes.iter().zip(&systems).zip(&self.motions).zip(&self.velocities)
         {
@@ -169,6 +183,18 @@ impl DiffractionProblem {
             made.iterations += uses;
             let on_hull = |i: usize| if i < self.mesh.hull_count() { images.len() as f64 } else { 0.0 };
             let weights: Vec<f64> = panels.iter().enumerate().map(|(i, panel)| panel.area * on_hull(i)).collect();
+            for (index, motion) in motions.iter().enumerate() {
+                let own = |panel: usize| velocities[panel * motions.len() + index];
+                radiated[*motion] =
+                    surface.iter().map(|at| solved.column(index)[at.panel] * class.factor(at.image)).collect();
+                normal_motions[*motion] = surface.iter().map(|at| own(at.panel) * class.factor(at.image)).collect();
+            }
+            for (index, total) in diffracted.iter_mut().enumerate() {
+                let own = solved.column(motions.len() + index);
+                for (value, at) in total.iter_mut().zip(&surface) {
+                    *value += own[at.panel] * class.factor(at.image);
+                }
+            }
             let integrate = |potential: &[C], motion: usize| -> C {
                 let own = velocities.iter().skip(motion).step_by(motions.len().max(1));
                 potential.iter().zip(own).zip(&weights).map(|((p, n), area)| p * (n * area)).sum()
@@ -198,7 +224,18 @@ impl DiffractionProblem {
                 }
             }
         }
-        Ok(made)
+        let amplitude = kernel.amplitude();
+        Ok(WaveSolution {
+            forces: made,
+            wave,
+            amplitude,
+            surface,
+            headings: headings.to_vec(),
+            water: self.water,
+            velocities: normal_motions,
+            radiated,
+            diffracted,
+        })
     }
 }
 
@@ -207,44 +244,4 @@ fn normal_velocities(panel: &Panel, origin: &Vector3<f64>) -> [f64; MOTIONS] {
     let normal = -panel.normal;
     let moment = (panel.centroid - origin).cross(&normal);
     [normal.x, normal.y, normal.z, moment.x, moment.y, moment.z]
-}
-
-/// A regular wave of amplitude 1 m.
-struct IncidentWave {
-    frequency: f64,
-    wave_number: f64,
-    gravity: f64,
-    depth: Option<f64>,
-}
-
-impl IncidentWave {
-    /// Its potential at a point, and its gradient.
-    fn at(&self, point: &Vector3<f64>, heading: f64) -> (C, Vector3<C>) {
-        let (sine, cosine) = heading.sin_cos();
-        let k = self.wave_number;
-        // cosh k(z + h)/cosh k h and its derivative, without large exponents
-        let (fall, slope) = self.depth.map_or(((k * point.z).exp(), k * (k * point.z).exp()), |depth| {
-            let scale = 1.0 / (1.0 + (-2.0 * k * depth).exp());
-            let (up, down) = ((k * point.z).exp(), (-k * (point.z + 2.0 * depth)).exp());
-            ((up + down) * scale, k * (up - down) * scale)
-        });
-        let at_surface =
-            C::new(0.0, -self.gravity / self.frequency) * C::from_polar(1.0, k * (point.x * cosine + point.y * sine));
-        let potential = at_surface * fall;
-        let along = C::new(0.0, k);
-        (potential, Vector3::new(potential * along * cosine, potential * along * sine, at_surface * slope))
-    }
-
-    /// The part of its potential on a panel that is in a symmetry class, and its derivative along the normal out of the water.
-    fn in_class(&self, panel: &Panel, heading: f64, class: SymmetryClass, images: &[[f64; 2]]) -> (C, C) {
-        let mut sum = (C::default(), C::default());
-        for image in images {
-            let share = class.factor(*image) / images.len() as f64;
-            let (potential, gradient) = self.at(&mirrored(&panel.centroid, *image), heading);
-            let normal = -mirrored(&panel.normal, *image);
-            let by_normal = gradient.x * normal.x + gradient.y * normal.y + gradient.z * normal.z;
-            sum = (sum.0 + potential * share, sum.1 + by_normal * share);
-        }
-        sum
-    }
 }

@@ -53,6 +53,11 @@ impl WaveKernel {
         self.bottom.as_ref().map_or(self.nu, FiniteDepthTable::wave_number)
     }
 
+    /// Of the wave far away: `nu` in deep water, with the depth `k/(k h sech2(k h) + tanh(k h))` (1/m).
+    pub fn amplitude(&self) -> f64 {
+        self.bottom.as_ref().map_or(self.nu, FiniteDepthTable::amplitude)
+    }
+
     fn part(&self, distance: f64, heights: [f64; 2]) -> FrequencyPart {
         match &self.bottom {
             None => FrequencyPart::in_deep_water(self.deep, self.nu, distance, heights),

@@ -116,6 +116,11 @@ impl FiniteDepthTable {
         self.wave_number
     }
 
+    /// `C0 cosh2(k0 h)` (1/m): far away G is `2 pi i` times it, times `cosh k0(z + h)/cosh k0 h` of both heights, times `H0(k0 R)`.
+    pub fn amplitude(&self) -> f64 {
+        self.amplitude
+    }
+
     /// The part of the frequency for a horizontal distance and the heights of the point and of the source (m).
     pub fn evaluate(&self, deep: &WavePartTable, distance: f64, heights: [f64; 2]) -> FrequencyPart {
         let found = FrequencyPart::in_deep_water(deep, self.nu, distance, heights);

@@ -4,19 +4,19 @@ use windlass_diffraction::{DiffractionBody, DiffractionProblem, HullMesh, Mirror
 
 /// Panels of a vertical cylinder of radius 1.
 #[derive(Clone, Copy)]
-struct CylinderMesh {
-    draught: f64,
+pub struct CylinderMesh {
+    pub draught: f64,
     /// Panels down the side, smaller towards both edges.
-    rows: usize,
+    pub rows: usize,
     /// Panels of the bottom along its radius, smaller towards the edge; none of a cylinder that stands on the sea bottom.
-    rings: usize,
+    pub rings: usize,
     /// Columns in a quarter.
-    turns: usize,
+    pub turns: usize,
 }
 
 impl CylinderMesh {
     /// The quarter between two mirror planes.
-    fn build(self) -> HullMesh {
+    pub fn build(self) -> HullMesh {
         HullMesh::new(&self.quads(1, 0.0), MirrorPlanes { x: true, y: true }).unwrap()
     }
 
@@ -52,11 +52,11 @@ impl CylinderMesh {
     }
 }
 
-fn rows(text: &str) -> Vec<Vec<f64>> {
+pub fn rows(text: &str) -> Vec<Vec<f64>> {
     text.lines().skip(2).map(|line| line.split(',').map(|word| word.parse().unwrap()).collect()).collect()
 }
 
-fn problem(mesh: HullMesh, depth: f64) -> DiffractionProblem {
+pub fn problem(mesh: HullMesh, depth: f64) -> DiffractionProblem {
     let water = Water { density: 1000.0, gravity: 9.81, depth: Some(depth) };
     DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water).unwrap()
 }

@@ -2,11 +2,11 @@ use nalgebra::{Complex, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
 use windlass_diffraction::{DiffractionBody, DiffractionProblem, FrequencyForces, HullMesh, MirrorPlanes, Water};
 
-const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
-const QUARTER: MirrorPlanes = MirrorPlanes { x: true, y: true };
+pub const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
+pub const QUARTER: MirrorPlanes = MirrorPlanes { x: true, y: true };
 
 /// Panels of a hemisphere of radius 1: `m` rows, `m` columns a quarter; 4 m2 with their images.
-fn hemisphere(m: usize, mirrors: MirrorPlanes) -> HullMesh {
+pub fn hemisphere(m: usize, mirrors: MirrorPlanes) -> HullMesh {
     let quarters = 4 / mirrors.images().len();
     let point = |i: usize, j: usize| {
         let (t, p) = (FRAC_PI_2 * i as f64 / m as f64, 2.0 * PI * j as f64 / (4 * m) as f64);
@@ -57,7 +57,7 @@ fn solve(problem: &DiffractionProblem, k: f64) -> FrequencyForces {
     problem.solve((k * WATER.gravity).sqrt(), &[0.0]).unwrap()
 }
 
-fn problem(m: usize, mirrors: MirrorPlanes) -> DiffractionProblem {
+pub fn problem(m: usize, mirrors: MirrorPlanes) -> DiffractionProblem {
     let body = DiffractionBody { mesh: hemisphere(m, mirrors), origin: Vector3::zeros() };
     DiffractionProblem::new(&[body], WATER).unwrap()
 }

@@ -3,5 +3,6 @@
 
 mod bad_input;
 mod cylinder;
+mod drift;
 mod green_function;
 mod hemisphere;
