@@ -6,6 +6,7 @@ use crate::mesh::HullMesh;
 use crate::panel::Panel;
 use crate::rankine::{RankinePart, mirrored};
 use crate::symmetry::{MAX_CLASSES, SymmetryClass};
+use multiversion::multiversion;
 use nalgebra::{Complex, Vector3};
 use rayon::prelude::*;
 
@@ -13,6 +14,8 @@ type C = Complex<f64>;
 
 /// Rows of one block: so many panels are worked on together.
 const BLOCK: usize = 64;
+/// Vectors that go through the matrix side by side: six motions and two headings.
+const LANES: usize = 8;
 /// Distance from the image of a panel, in its diagonals, within which the wave part is taken at four points.
 const NEAR_DIAGONALS: f64 = 3.0;
 
@@ -69,7 +72,7 @@ impl WaveKernel {
     fn over_points(&self, from: &Vector3<f64>, panel: &Panel) -> (C, C) {
         panel.rule().iter().fold((C::default(), C::default()), |(potential, derivative), (point, area)| {
             let (dx, dy) = (point.x - from.x, point.y - from.y);
-            let distance = dx.hypot(dy);
+            let distance = (dx * dx + dy * dy).sqrt();
             let part = self.part(distance, [from.z, point.z]);
             let normal = &panel.normal;
             let across = if distance > 0.0 { (dx * normal.x + dy * normal.y) / distance } else { 0.0 };
@@ -93,7 +96,7 @@ impl WaveKernel {
             return Pair { potential: [to, fro], derivative: [-to_slope, -fro_slope] };
         }
         let (dx, dy) = (other.centroid.x - from.x, other.centroid.y - from.y);
-        let distance = dx.hypot(dy);
+        let distance = (dx * dx + dy * dy).sqrt();
         let part = self.part(distance, [one.centroid.z, other.centroid.z]);
         let unit = if distance > 0.0 { [dx / distance, dy / distance] } else { [0.0; 2] };
         // seen from the other side the arm is the mirrored one, turned round
@@ -270,24 +273,65 @@ impl WaveSystem {
 
     /// The products of the matrix with vectors.
     pub fn multiply(&self, vectors: &Columns) -> Columns {
-        let count = vectors.count();
-        let products: Vec<C> = self
-            .matrix
-            .par_chunks(self.count)
-            .flat_map_iter(|row| {
-                (0..count).map(|c| {
-                    row.iter().zip(vectors.column(c)).fold(C::default(), |sum, (entry, value)| {
-                        sum + C::new(f64::from(entry.re), f64::from(entry.im)) * value
-                    })
+        let mut made = Columns::zeros(self.count, vectors.count());
+        for first in (0..vectors.count()).step_by(LANES) {
+            let lanes = first..(first + LANES).min(vectors.count());
+            let packed: Vec<[[f64; LANES]; 2]> = (0..self.count)
+                .map(|panel| {
+                    let mut parts = [[0.0; LANES]; 2];
+                    for (lane, column) in lanes.clone().enumerate() {
+                        let value = vectors.column(column)[panel];
+                        (parts[0][lane], parts[1][lane]) = (value.re, value.im);
+                    }
+                    parts
                 })
-            })
-            .collect();
-        let mut made = Columns::zeros(self.count, count);
-        for (row, values) in products.chunks_exact(count.max(1)).enumerate() {
-            for (c, value) in values.iter().enumerate() {
-                made.column_mut(c)[row] = *value;
+                .collect();
+            let products: Vec<[[f64; LANES]; 2]> = self
+                .matrix
+                .par_chunks(self.count * BLOCK)
+                .flat_map_iter(|rows| {
+                    let mut products = vec![[[0.0; LANES]; 2]; rows.len() / self.count];
+                    multiply_rows(rows, &packed, &mut products);
+                    products
+                })
+                .collect();
+            for (lane, column) in lanes.enumerate() {
+                for (value, [re, im]) in made.column_mut(column).iter_mut().zip(&products) {
+                    *value = C::new(re[lane], im[lane]);
+                }
             }
         }
         made
+    }
+}
+
+/// The products of rows of a matrix with vectors side by side, real and imaginary parts apart. Compiled for several widths of vector register;
+/// no product is contracted with its sum, so all give the same digits.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn multiply_rows(rows: &[Complex<f32>], vectors: &[[[f64; LANES]; 2]], products: &mut [[[f64; LANES]; 2]]) {
+    let count = vectors.len();
+    for (pair, products) in rows.chunks(2 * count).zip(products.chunks_mut(2)) {
+        let (one, other) = pair.split_at(count);
+        if let [first, second] = products {
+            let mut sums = [[[0.0; LANES]; 2]; 2];
+            for ((a, b), [re, im]) in one.iter().zip(other).zip(vectors) {
+                let [a_re, a_im, b_re, b_im] = [a.re, a.im, b.re, b.im].map(f64::from);
+                for lane in 0..LANES {
+                    sums[0][0][lane] += a_re * re[lane] - a_im * im[lane];
+                    sums[0][1][lane] += a_re * im[lane] + a_im * re[lane];
+                    sums[1][0][lane] += b_re * re[lane] - b_im * im[lane];
+                    sums[1][1][lane] += b_re * im[lane] + b_im * re[lane];
+                }
+            }
+            [*first, *second] = sums;
+        } else if let [last] = products {
+            for (a, [re, im]) in one.iter().zip(vectors) {
+                let [a_re, a_im] = [a.re, a.im].map(f64::from);
+                for lane in 0..LANES {
+                    last[0][lane] += a_re * re[lane] - a_im * im[lane];
+                    last[1][lane] += a_re * im[lane] + a_im * re[lane];
+                }
+            }
+        }
     }
 }

@@ -81,7 +81,7 @@ impl FrequencyPart {
     pub fn in_deep_water(table: &WavePartTable, nu: f64, distance: f64, heights: [f64; 2]) -> Self {
         let (x, y) = (nu * distance, -nu * (heights[0] + heights[1]));
         let found = table.evaluate(x, y);
-        let by_height = (found.value + 2.0 / x.hypot(y)) * (nu * nu);
+        let by_height = (found.value + 2.0 / (x * x + y * y).sqrt()) * (nu * nu);
         FrequencyPart { value: found.value * nu, by_distance: found.by_x * (nu * nu), by_heights: [by_height; 2] }
     }
 }

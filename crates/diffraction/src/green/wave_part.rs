@@ -80,7 +80,7 @@ impl WavePartTable {
 
     /// The wave part at `x` and `y`, not below zero and not both zero (without unit), to 1e-6 of the larger of 1 and `1/d`.
     pub fn evaluate(&self, x: f64, y: f64) -> WavePart {
-        let d = x.hypot(y);
+        let d = (x * x + y * y).sqrt();
         let fall = (-y).exp();
         let wave = 2.0 * PI * fall;
         if x >= FAR || y >= FAR {
