@@ -2,9 +2,6 @@
 
 use crate::mesh::MirrorPlanes;
 
-/// Two mirror planes make so many classes.
-pub const MAX_CLASSES: usize = 4;
-
 /// How a function behaves about the planes x = 0 and y = 0: 1 even, -1 odd; 1 where there is no mirror plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SymmetryClass {

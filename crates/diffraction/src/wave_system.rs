@@ -1,14 +1,15 @@
 //! The equations at one frequency: the wave part of the Green function, added to the Rankine part.
 
 use crate::gmres::Columns;
-use crate::green::{FiniteDepthTable, FrequencyPart, WavePartTable};
+use crate::green::{FiniteDepthTable, FrequencyPart, WavePartBatch, WavePartTable};
 use crate::mesh::HullMesh;
 use crate::panel::Panel;
 use crate::rankine::{RankinePart, mirrored};
-use crate::symmetry::{MAX_CLASSES, SymmetryClass};
+use crate::symmetry::SymmetryClass;
 use multiversion::multiversion;
 use nalgebra::{Complex, Vector3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 type C = Complex<f64>;
 
@@ -27,14 +28,6 @@ pub struct WaveSystem {
     matrix: Vec<Complex<f32>>,
     /// Right sides of the motions of the class.
     pub radiation: Columns,
-}
-
-/// What one panel does to another, and the other to it, by an image: the potential of a unit source density and the derivative along the
-/// normal out of the water, over the panel.
-#[derive(Clone, Copy, Default)]
-struct Pair {
-    potential: [C; 2],
-    derivative: [C; 2],
 }
 
 /// The part of the Green function that depends on the frequency.
@@ -80,39 +73,6 @@ impl WaveKernel {
             (potential + part.value * *area, derivative + by_normal * *area)
         })
     }
-
-    fn is_near(from: &Vector3<f64>, panel: &Panel) -> bool {
-        let arm = panel.centroid - from;
-        let above = panel.centroid.z + from.z;
-        arm.x * arm.x + arm.y * arm.y + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2)
-    }
-
-    /// Both ways between two panels: the second seen from an image of the first, and the first from that image of the second.
-    fn pair(&self, one: &Panel, other: &Panel, image: [f64; 2]) -> Pair {
-        let (from, back) = (mirrored(&one.centroid, image), mirrored(&other.centroid, image));
-        if Self::is_near(&from, other) || Self::is_near(&back, one) {
-            let (to, to_slope) = self.over_points(&from, other);
-            let (fro, fro_slope) = self.over_points(&back, one);
-            return Pair { potential: [to, fro], derivative: [-to_slope, -fro_slope] };
-        }
-        let (dx, dy) = (other.centroid.x - from.x, other.centroid.y - from.y);
-        let distance = (dx * dx + dy * dy).sqrt();
-        let part = self.part(distance, [one.centroid.z, other.centroid.z]);
-        let unit = if distance > 0.0 { [dx / distance, dy / distance] } else { [0.0; 2] };
-        // seen from the other side the arm is the mirrored one, turned round
-        let across = unit[0] * other.normal.x + unit[1] * other.normal.y;
-        let across_back = -(image[0] * unit[0] * one.normal.x + image[1] * unit[1] * one.normal.y);
-        let derivative = |across: f64, by_height: C, panel: &Panel| {
-            -(part.by_distance * across + by_height * panel.normal.z) * panel.area
-        };
-        Pair {
-            potential: [part.value * other.area, part.value * one.area],
-            derivative: [
-                derivative(across, part.by_heights[1], other),
-                derivative(across_back, part.by_heights[0], one),
-            ],
-        }
-    }
 }
 
 /// What a block of panels and another do to each other, class by class.
@@ -121,10 +81,61 @@ struct BlockPair {
     classes: Vec<ClassPair>,
 }
 
-/// The same for one class: entries of the matrix and parts of the right sides, both ways.
+/// The same for one class: entries of the matrix and parts of the right sides, of the first block and of the second.
 struct ClassPair {
+    /// Both by rows of the first block.
     entries: [Vec<Complex<f32>>; 2],
+    /// Panel by panel and then motion by motion.
     sides: [Vec<C>; 2],
+}
+
+/// The panels, quantity by quantity.
+struct PanelArrays {
+    /// Centroids (m), x, y and z.
+    centroid: [Vec<f64>; 3],
+    /// Area times the normal into the water, zero of the lid (m2).
+    area_vector: [Vec<f64>; 3],
+    /// Of panels of the lid `nu` times the area, zero of the hull (m).
+    lid: Vec<f64>,
+    /// Square of the distance within which the wave part is taken at four points (m2).
+    near: Vec<f64>,
+    /// Of each class: velocities times areas, panel by panel and then motion by motion.
+    fluxes: Vec<Vec<f64>>,
+}
+
+impl PanelArrays {
+    fn new(mesh: &HullMesh, nu: f64, velocities: &[Vec<f64>]) -> Self {
+        let panels = mesh.panels();
+        let hull = mesh.hull_count();
+        let centroid = [0, 1, 2].map(|axis| panels.iter().map(|panel| panel.centroid[axis]).collect());
+        let area_vector = [0, 1, 2].map(|axis| {
+            let of_hull = |(i, panel): (usize, &Panel)| if i < hull { panel.area * panel.normal[axis] } else { 0.0 };
+            panels.iter().enumerate().map(of_hull).collect()
+        });
+        let lid = panels.iter().enumerate().map(|(i, panel)| if i < hull { 0.0 } else { nu * panel.area }).collect();
+        let near = panels.iter().map(|panel| (NEAR_DIAGONALS * panel.diagonal).powi(2)).collect();
+        let fluxes = velocities
+            .iter()
+            .map(|velocities| {
+                let motions = velocities.len() / panels.len();
+                velocities.iter().enumerate().map(|(i, v)| v * panels[i / motions.max(1)].area).collect()
+            })
+            .collect();
+        PanelArrays { centroid, area_vector, lid, near, fluxes }
+    }
+}
+
+/// The frequency's part of the Green function between the panels of two blocks, row by row; real and imaginary parts.
+#[derive(Default)]
+struct BlockKernel {
+    value: [Vec<f64>; 2],
+    by_distance: [Vec<f64>; 2],
+    /// By the height of the panel of the first block, and of the second.
+    by_heights: [[Vec<f64>; 2]; 2],
+    /// Horizontal unit vector from the first to the second.
+    direction: [Vec<f64>; 2],
+    /// Panels too near each other's image for one point.
+    near: Vec<[usize; 2]>,
 }
 
 /// The systems of all classes at a frequency.
@@ -163,10 +174,11 @@ pub fn wave_systems(
             WaveSystem { count, matrix, radiation }
         })
         .collect();
+    let arrays = PanelArrays::new(mesh, kernel.nu, velocities);
     // so many pairs at a time that what waits to be added stays small
     for some in pairs.chunks(4 * rayon::current_num_threads().max(1)) {
         let made: Vec<BlockPair> =
-            some.par_iter().map(|blocks| block_pair(kernel, mesh, classes, velocities, *blocks)).collect();
+            some.par_iter().map(|blocks| block_pair(kernel, mesh, classes, &arrays, *blocks)).collect();
         for pair in made {
             for (system, class) in systems.iter_mut().zip(pair.classes) {
                 system.add(pair.blocks, &class);
@@ -180,67 +192,65 @@ fn block_pair(
     kernel: &WaveKernel,
     mesh: &HullMesh,
     classes: &[SymmetryClass],
-    velocities: &[Vec<f64>],
+    arrays: &PanelArrays,
     blocks: [usize; 2],
 ) -> BlockPair {
     let panels = mesh.panels();
-    let hull = mesh.hull_count();
-    let images = mesh.mirrors().images();
     let [rows, columns] = blocks.map(|block| block * BLOCK..((block + 1) * BLOCK).min(panels.len()));
-    let sizes = [rows.len(), columns.len()];
-    let motions: Vec<usize> = velocities.iter().map(|v| v.len() / panels.len()).collect();
+    let width = columns.len();
+    let size = rows.len() * width;
+    // within one block each panel is a row, and the other way is the same once more
+    let ways = if blocks[0] == blocks[1] { 1 } else { 2 };
+    let motions: Vec<usize> = arrays.fluxes.iter().map(|fluxes| fluxes.len() / panels.len()).collect();
     let mut made: Vec<ClassPair> = motions
         .iter()
-        .map(|motions| {
-            let entries = || vec![Complex::default(); sizes[0] * sizes[1]];
-            ClassPair {
-                entries: [entries(), entries()],
-                sides: [vec![C::default(); sizes[0] * motions], vec![C::default(); sizes[1] * motions]],
-            }
+        .map(|motions| ClassPair {
+            entries: [vec![Complex::default(); size], vec![Complex::default(); if ways == 2 { size } else { 0 }]],
+            sides: [vec![C::default(); rows.len() * motions], vec![C::default(); width * motions]],
         })
         .collect();
-    for (row, i) in rows.clone().enumerate() {
-        for (column, j) in columns.clone().enumerate() {
-            if blocks[0] == blocks[1] && j < i {
-                continue;
-            }
-            let mut sums = [Pair::default(); MAX_CLASSES];
-            for image in &images {
-                let pair = kernel.pair(&panels[i], &panels[j], *image);
-                for (class, sum) in classes.iter().zip(&mut sums) {
-                    let factor = class.factor(*image);
-                    for way in 0..2 {
-                        sum.potential[way] += pair.potential[way] * factor;
-                        sum.derivative[way] += pair.derivative[way] * factor;
-                    }
+    for image in mesh.mirrors().images() {
+        let mut block = kernel.over_block(arrays, &rows, &columns, image);
+        let derivatives = [
+            block.derivatives(arrays, &rows, &columns, [1.0; 2], 0),
+            if ways == 2 { block.derivatives(arrays, &rows, &columns, image, 1) } else { Default::default() },
+        ];
+        let near: Vec<_> = std::mem::take(&mut block.near)
+            .into_iter()
+            .map(|[i, j]| {
+                let (one, other) = (&panels[i], &panels[j]);
+                let there = kernel.over_points(&mirrored(&one.centroid, image), other);
+                let back = kernel.over_points(&mirrored(&other.centroid, image), one);
+                ([i - rows.start, j - columns.start], [i, j], [there, back])
+            })
+            .collect();
+        for ((class, made), (fluxes, motions)) in
+            classes.iter().zip(&mut made).zip(arrays.fluxes.iter().zip(motions.iter().copied()))
+        {
+            let factor = class.factor(image);
+            for (entries, [re, im]) in made.entries.iter_mut().zip(&derivatives) {
+                for ((entry, re), im) in entries.iter_mut().zip(re).zip(im) {
+                    *entry += Complex::new((factor * re) as f32, (factor * im) as f32);
                 }
             }
-            for (index, sum) in sums.iter().take(classes.len()).enumerate() {
-                let narrow = |value: C| Complex::new(value.re as f32, value.im as f32);
-                // on the lid the derivative is that of the condition at the surface
-                let by_normal = |way: usize, source: usize| {
-                    if source < hull { sum.derivative[way] } else { sum.potential[way] * kernel.nu }
-                };
-                let ClassPair { entries, sides } = &mut made[index];
-                let count = motions[index];
-                entries[0][row * sizes[1] + column] = narrow(by_normal(0, j));
-                entries[1][column * sizes[0] + row] = narrow(by_normal(1, i));
-                for motion in 0..count {
-                    sides[0][row * count + motion] += sum.potential[0] * velocities[index][j * count + motion];
-                    if i != j {
-                        sides[1][column * count + motion] += sum.potential[1] * velocities[index][i * count + motion];
-                    }
-                }
+            let [first, second] = [&rows, &columns].map(|range| &fluxes[range.start * motions..range.end * motions]);
+            add_sides(&block.value, width, second, factor, &mut made.sides[0], false);
+            if ways == 2 {
+                add_sides(&block.value, width, first, factor, &mut made.sides[1], true);
             }
-        }
-    }
-    if blocks[0] == blocks[1] {
-        // one block: what was found both ways stands in one square
-        for ClassPair { entries, .. } in &mut made {
-            let size = sizes[0];
-            for row in 0..size {
-                for column in 0..row {
-                    entries[0][row * size + column] = entries[1][row * size + column];
+            for ([row, column], indices, parts) in &near {
+                for way in 0..ways {
+                    let (own, source) = ([row, column][way], indices[1 - way]);
+                    let (potential, derivative) = parts[way];
+                    // on the lid the derivative is that of the condition at the surface
+                    let by_normal = if source < mesh.hull_count() { -derivative } else { potential * kernel.nu };
+                    made.entries[way][row * width + column] +=
+                        Complex::new((factor * by_normal.re) as f32, (factor * by_normal.im) as f32);
+                    let area = panels[source].area;
+                    for motion in 0..motions {
+                        made.sides[way][own * motions + motion] +=
+                            potential * (factor * fluxes[source * motions + motion] / area);
+                    }
                 }
             }
         }
@@ -248,25 +258,209 @@ fn block_pair(
     BlockPair { blocks, classes: made }
 }
 
-impl WaveSystem {
-    fn add(&mut self, blocks: [usize; 2], ClassPair { entries, sides }: &ClassPair) {
-        let motions = self.radiation.count();
-        let ways: &[usize] = if blocks[0] == blocks[1] { &[0] } else { &[0, 1] };
-        for way in ways {
-            let (first_row, first_column) = (blocks[*way] * BLOCK, blocks[1 - *way] * BLOCK);
-            let width = (first_column + BLOCK).min(self.count) - first_column;
-            for (row, values) in entries[*way].chunks_exact(width).enumerate() {
-                let start = (first_row + row) * self.count + first_column;
-                for (entry, value) in self.matrix[start..start + width].iter_mut().zip(values) {
-                    *entry += value;
+/// Adds to right sides the potentials of the fluxes of the other block: of rows of the kernel, or turned of its columns. Compiled as
+/// [`multiply_rows`].
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn add_sides(values: &[Vec<f64>; 2], width: usize, fluxes: &[f64], factor: f64, sides: &mut [C], turned: bool) {
+    let height = values[0].len() / width;
+    let (count, others) = if turned { (width, height) } else { (height, width) };
+    let motions = fluxes.len() / others;
+    for first in (0..motions).step_by(LANES) {
+        let lanes = (first + LANES).min(motions) - first;
+        let packed: Vec<[f64; LANES]> = (0..others)
+            .map(|other| {
+                let own = &fluxes[other * motions + first..][..lanes];
+                std::array::from_fn(|lane| own.get(lane).map_or(0.0, |flux| factor * flux))
+            })
+            .collect();
+        for own in 0..count {
+            let (start, step) = if turned { (own, width) } else { (own * width, 1) };
+            let [re, im] = [&values[0], &values[1]].map(|part| part[start..].iter().step_by(step));
+            let mut sums = [[0.0; LANES]; 2];
+            for ((re, im), fluxes) in re.zip(im).zip(&packed) {
+                for lane in 0..LANES {
+                    sums[0][lane] += re * fluxes[lane];
+                    sums[1][lane] += im * fluxes[lane];
+                }
+            }
+            for lane in 0..lanes {
+                sides[own * motions + first + lane] += C::new(sums[0][lane], sums[1][lane]);
+            }
+        }
+    }
+}
+
+impl WaveKernel {
+    /// Between the centroids of two blocks, the first seen in a mirror.
+    fn over_block(
+        &self,
+        arrays: &PanelArrays,
+        rows: &Range<usize>,
+        columns: &Range<usize>,
+        image: [f64; 2],
+    ) -> BlockKernel {
+        let size = rows.len() * columns.len();
+        let mut made = BlockKernel::default();
+        let (mut x, mut y, mut distances) =
+            (Vec::with_capacity(size), Vec::with_capacity(size), Vec::with_capacity(size));
+        let [xs, ys, zs] = &arrays.centroid;
+        let direction = &mut made.direction;
+        for i in rows.clone() {
+            for j in columns.clone() {
+                let (dx, dy, above) = (xs[j] - image[0] * xs[i], ys[j] - image[1] * ys[i], zs[i] + zs[j]);
+                let distance2 = dx * dx + dy * dy;
+                let distance = distance2.sqrt();
+                let over = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+                direction[0].push(dx * over);
+                direction[1].push(dy * over);
+                let is_near = distance2 + above * above < arrays.near[i].max(arrays.near[j]);
+                if is_near {
+                    made.near.push([i, j]);
+                }
+                // what is near is taken elsewhere, and stands as far away here
+                distances.push(distance);
+                x.push(if is_near { 1.0 } else { self.nu * distance });
+                y.push(if is_near { 1.0 } else { -self.nu * above });
+            }
+        }
+        let mut batch = WavePartBatch::default();
+        self.deep.evaluate_batch(&x, &y, &mut batch);
+        let (nu, square) = (self.nu, self.nu * self.nu);
+        let height: Vec<f64> =
+            x.iter().zip(&y).zip(&batch.re).map(|((x, y), re)| square * (re + 2.0 / (x * x + y * y).sqrt())).collect();
+        let scaled = |part: Vec<f64>, factor: f64| -> Vec<f64> { part.into_iter().map(|v| v * factor).collect() };
+        let im_by_height = scaled(batch.im.clone(), square);
+        made.value = [scaled(batch.re, nu), scaled(batch.im, nu)];
+        made.by_distance = [scaled(batch.re_by_x, square), scaled(batch.im_by_x, square)];
+        made.by_heights = [[height.clone(), im_by_height.clone()], [height, im_by_height]];
+        if let Some(bottom) = &self.bottom {
+            for (row, i) in rows.clone().enumerate() {
+                for (column, j) in columns.clone().enumerate() {
+                    let at = row * columns.len() + column;
+                    let deep = made.part(at);
+                    made.set(at, bottom.correct(deep, distances[at], [zs[i], zs[j]]));
                 }
             }
         }
-        for way in 0..2 {
-            let first = blocks[way] * BLOCK;
-            for (index, value) in sides[way].iter().enumerate() {
-                let (row, motion) = (first + index / motions, index % motions);
-                self.radiation.column_mut(motion)[row] += value;
+        for [i, j] in std::mem::take(&mut made.near) {
+            made.set((i - rows.start) * columns.len() + j - columns.start, FrequencyPart::default());
+            made.near.push([i, j]);
+        }
+        made
+    }
+}
+
+impl BlockKernel {
+    fn part(&self, at: usize) -> FrequencyPart {
+        let of = |[re, im]: &[Vec<f64>; 2]| C::new(re[at], im[at]);
+        FrequencyPart {
+            value: of(&self.value),
+            by_distance: of(&self.by_distance),
+            by_heights: [of(&self.by_heights[0]), of(&self.by_heights[1])],
+        }
+    }
+
+    fn set(&mut self, at: usize, part: FrequencyPart) {
+        let [first, second] = &mut self.by_heights;
+        for ([re, im], value) in [
+            (&mut self.value, part.value),
+            (&mut self.by_distance, part.by_distance),
+            (first, part.by_heights[0]),
+            (second, part.by_heights[1]),
+        ] {
+            (re[at], im[at]) = (value.re, value.im);
+        }
+    }
+
+    /// The derivatives along the normals out of the water over the panels of the second block (way 0), or over those of the first (way 1),
+    /// seen from the other; `signs` are those of the direction. Row by row of the first block.
+    fn derivatives(
+        &self,
+        arrays: &PanelArrays,
+        rows: &Range<usize>,
+        columns: &Range<usize>,
+        signs: [f64; 2],
+        way: usize,
+    ) -> [Vec<f64>; 2] {
+        let by_height = &self.by_heights[1 - way];
+        [0, 1].map(|part| {
+            let mut made = vec![0.0; self.value[part].len()];
+            let width = columns.len();
+            for (row, i) in rows.clone().enumerate() {
+                let own = row * width..(row + 1) * width;
+                let kernel = KernelRow {
+                    value: &self.value[part][own.clone()],
+                    by_distance: &self.by_distance[part][own.clone()],
+                    by_height: &by_height[part][own.clone()],
+                    direction: [&self.direction[0][own.clone()], &self.direction[1][own.clone()]],
+                };
+                let out = &mut made[own];
+                if way == 0 {
+                    let vectors = [0, 1, 2].map(|axis| &arrays.area_vector[axis][columns.clone()]);
+                    kernel.toward_columns(vectors, &arrays.lid[columns.clone()], out);
+                } else {
+                    // seen from the other side the arm is the mirrored one, turned round
+                    let [x, y, z] = [0, 1, 2].map(|axis| arrays.area_vector[axis][i]);
+                    kernel.toward_row([-signs[0] * x, -signs[1] * y, z], arrays.lid[i], out);
+                }
+            }
+            made
+        })
+    }
+}
+
+/// A row of a block.
+struct KernelRow<'a> {
+    value: &'a [f64],
+    by_distance: &'a [f64],
+    by_height: &'a [f64],
+    direction: [&'a [f64]; 2],
+}
+
+impl KernelRow<'_> {
+    fn toward_columns(&self, [x, y, z]: [&[f64]; 3], lid: &[f64], out: &mut [f64]) {
+        let count = out.len();
+        let (value, by_distance, by_height) =
+            (&self.value[..count], &self.by_distance[..count], &self.by_height[..count]);
+        let (along, across) = (&self.direction[0][..count], &self.direction[1][..count]);
+        let (x, y, z, lid) = (&x[..count], &y[..count], &z[..count], &lid[..count]);
+        for j in 0..count {
+            let normal = along[j] * x[j] + across[j] * y[j];
+            out[j] = value[j] * lid[j] - by_distance[j] * normal - by_height[j] * z[j];
+        }
+    }
+
+    fn toward_row(&self, [x, y, z]: [f64; 3], lid: f64, out: &mut [f64]) {
+        let count = out.len();
+        let (value, by_distance, by_height) =
+            (&self.value[..count], &self.by_distance[..count], &self.by_height[..count]);
+        let (along, across) = (&self.direction[0][..count], &self.direction[1][..count]);
+        for j in 0..count {
+            let normal = along[j] * x + across[j] * y;
+            out[j] = value[j] * lid - by_distance[j] * normal - by_height[j] * z;
+        }
+    }
+}
+
+impl WaveSystem {
+    fn add(&mut self, blocks: [usize; 2], ClassPair { entries, sides }: &ClassPair) {
+        let motions = self.radiation.count();
+        let [rows, columns] = blocks.map(|block| block * BLOCK..((block + 1) * BLOCK).min(self.count));
+        let width = columns.len();
+        for (row, values) in rows.clone().zip(entries[0].chunks_exact(width)) {
+            for (entry, value) in self.matrix[row * self.count..][columns.clone()].iter_mut().zip(values) {
+                *entry += value;
+            }
+        }
+        for (row, column) in columns.clone().zip(0..if entries[1].is_empty() { 0 } else { width }) {
+            let values = entries[1].iter().skip(column).step_by(width);
+            for (entry, value) in self.matrix[row * self.count..][rows.clone()].iter_mut().zip(values) {
+                *entry += value;
+            }
+        }
+        for (range, sides) in [rows, columns].into_iter().zip(sides) {
+            for (index, value) in sides.iter().enumerate() {
+                self.radiation.column_mut(index % motions)[range.start + index / motions] += value;
             }
         }
     }

@@ -66,7 +66,7 @@ pub struct FiniteDepthTable {
 }
 
 /// The part of the Green function that depends on the frequency, `nu W + S + S'`, with its derivatives.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FrequencyPart {
     /// The part itself (1/m).
     pub value: C,
@@ -123,7 +123,11 @@ impl FiniteDepthTable {
 
     /// The part of the frequency for a horizontal distance and the heights of the point and of the source (m).
     pub fn evaluate(&self, deep: &WavePartTable, distance: f64, heights: [f64; 2]) -> FrequencyPart {
-        let found = FrequencyPart::in_deep_water(deep, self.nu, distance, heights);
+        self.correct(FrequencyPart::in_deep_water(deep, self.nu, distance, heights), distance, heights)
+    }
+
+    /// The same from the part of deep water.
+    pub fn correct(&self, found: FrequencyPart, distance: f64, heights: [f64; 2]) -> FrequencyPart {
         let [z, source] = heights;
         let patch = ((distance / self.step) as usize).min(self.sum_part.len() - 1);
         let sum = self.sum_part[patch].evaluate(distance, z + source + 2.0 * self.depth);

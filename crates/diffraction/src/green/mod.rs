@@ -17,4 +17,4 @@ mod wave_part;
 
 pub use finite_depth::{FiniteDepthTable, FrequencyPart};
 pub use quadrature::integrate_wave_part;
-pub use wave_part::{WavePart, WavePartTable};
+pub use wave_part::{WavePart, WavePartBatch, WavePartTable};

@@ -5,6 +5,11 @@ use std::f64::consts::PI;
 /// Coefficients of a polynomial in one variable: its degree is nine.
 pub const TERMS: usize = 10;
 
+/// Arguments that are worked on side by side in vector registers.
+pub const LANES: usize = 16;
+/// Coefficients below it are left out: of a hundred less than a tenth of what the tables are good for.
+const NEGLIGIBLE: f64 = 1e-9;
+
 /// A polynomial on an interval.
 #[derive(Clone, Copy, Debug)]
 pub struct Interval {
@@ -24,6 +29,18 @@ impl Interval {
     pub fn evaluate(&self, x: f64) -> f64 {
         horner(&self.terms, (x - self.middle) * self.over_half)
     }
+
+    /// The polynomial at several arguments.
+    #[inline(always)]
+    pub fn evaluate_lanes(&self, x: &[f64; LANES]) -> [f64; LANES] {
+        let mut sums = [0.0; LANES];
+        for term in self.terms.iter().rev() {
+            for (sum, x) in sums.iter_mut().zip(x) {
+                *sum = *sum * ((x - self.middle) * self.over_half) + term;
+            }
+        }
+        sums
+    }
 }
 
 /// `F` functions of two variables on a rectangle, as a polynomial each.
@@ -33,6 +50,8 @@ pub struct Patch<const F: usize> {
     over_half: [f64; 2],
     /// By powers of the first variable, then of the second; the functions side by side.
     terms: [[[f64; F]; TERMS]; TERMS],
+    /// Of each power of the first variable: so many powers of the second have a coefficient.
+    lengths: [usize; TERMS],
 }
 
 impl<const F: usize> Patch<F> {
@@ -50,15 +69,23 @@ impl<const F: usize> Patch<F> {
         let values = nodes.map(|s| row(middle[0] + half[0] * s, across));
         let mut terms = [[[0.0; F]; TERMS]; TERMS];
         for which in 0..F {
-            let rows = values.map(|row| powers_from_values(row.map(|functions| functions[which])));
+            let rows = values.map(|row| chebyshev_from_values(row.map(|functions| functions[which])));
+            let mut shares = [[0.0; TERMS]; TERMS];
             for j in 0..TERMS {
-                let column = powers_from_values(rows.map(|row| row[j]));
+                for (i, share) in chebyshev_from_values(rows.map(|row| row[j])).into_iter().enumerate() {
+                    shares[i][j] = if share.abs() < NEGLIGIBLE { 0.0 } else { share };
+                }
+            }
+            let rows = shares.map(powers_from_chebyshev);
+            for j in 0..TERMS {
+                let column = powers_from_chebyshev(rows.map(|row| row[j]));
                 for (i, term) in column.into_iter().enumerate() {
                     terms[i][j][which] = term;
                 }
             }
         }
-        Patch { middle, over_half: half.map(|h| 1.0 / h), terms }
+        let lengths = terms.map(|row| TERMS - row.iter().rev().take_while(|term| **term == [0.0; F]).count());
+        Patch { middle, over_half: half.map(|h| 1.0 / h), terms, lengths }
     }
 
     /// The functions at a point.
@@ -66,9 +93,9 @@ impl<const F: usize> Patch<F> {
         let s = (first - self.middle[0]) * self.over_half[0];
         let t = (second - self.middle[1]) * self.over_half[1];
         let mut sum = [0.0; F];
-        for row in self.terms.iter().rev() {
+        for (row, length) in self.terms.iter().zip(self.lengths).rev() {
             let mut inner = [0.0; F];
-            for term in row.iter().rev() {
+            for term in row[..length].iter().rev() {
                 for (value, term) in inner.iter_mut().zip(term) {
                     *value = *value * t + term;
                 }
@@ -81,6 +108,32 @@ impl<const F: usize> Patch<F> {
     }
 }
 
+impl<const F: usize> Patch<F> {
+    /// The functions at several points.
+    #[inline(always)]
+    pub fn evaluate_lanes(&self, first: &[f64; LANES], second: &[f64; LANES]) -> [[f64; LANES]; F] {
+        let s = first.map(|x| (x - self.middle[0]) * self.over_half[0]);
+        let t = second.map(|y| (y - self.middle[1]) * self.over_half[1]);
+        let mut sums = [[0.0; LANES]; F];
+        for (row, length) in self.terms.iter().zip(self.lengths).rev() {
+            let mut inner = [[0.0; LANES]; F];
+            for term in row[..length].iter().rev() {
+                for (values, term) in inner.iter_mut().zip(term) {
+                    for (value, t) in values.iter_mut().zip(&t) {
+                        *value = *value * t + term;
+                    }
+                }
+            }
+            for (values, inner) in sums.iter_mut().zip(&inner) {
+                for ((value, inner), s) in values.iter_mut().zip(inner).zip(&s) {
+                    *value = *value * s + inner;
+                }
+            }
+        }
+        sums
+    }
+}
+
 /// Chebyshev's points of the first kind on [-1, 1].
 fn chebyshev_points() -> [f64; TERMS] {
     std::array::from_fn(|i| (PI * (i as f64 + 0.5) / TERMS as f64).cos())
@@ -88,16 +141,20 @@ fn chebyshev_points() -> [f64; TERMS] {
 
 /// The powers of a function on [-1, 1].
 fn fit_powers(function: impl Fn(f64) -> f64) -> [f64; TERMS] {
-    powers_from_values(chebyshev_points().map(function))
+    powers_from_chebyshev(chebyshev_from_values(chebyshev_points().map(function)))
 }
 
-/// The coefficients of the powers of the polynomial through values at Chebyshev's points.
-fn powers_from_values(values: [f64; TERMS]) -> [f64; TERMS] {
+/// The coefficients of Chebyshev's polynomials through values at Chebyshev's points.
+fn chebyshev_from_values(values: [f64; TERMS]) -> [f64; TERMS] {
     let count = TERMS as f64;
-    let chebyshev: [f64; TERMS] = std::array::from_fn(|n| {
+    std::array::from_fn(|n| {
         let share = if n == 0 { 1.0 } else { 2.0 } / count;
         share * (0..TERMS).map(|i| values[i] * (PI * n as f64 * (i as f64 + 0.5) / count).cos()).sum::<f64>()
-    });
+    })
+}
+
+/// The coefficients of the powers of a sum of Chebyshev's polynomials.
+fn powers_from_chebyshev(chebyshev: [f64; TERMS]) -> [f64; TERMS] {
     // T(n+1) = 2 t T(n) - T(n-1), in powers of t
     let (mut before, mut own) = ([0.0; TERMS], [0.0; TERMS]);
     before[0] = 1.0;
