@@ -8,7 +8,7 @@ use crate::panel::Panel;
 use crate::rankine::{RankinePart, rankine_parts};
 use crate::symmetry::SymmetryClass;
 use crate::wave_solution::WaveSolution;
-use crate::wave_system::{WaveKernel, wave_systems};
+use crate::wave_system::{Accuracy, WaveKernel, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
 
 type C = Complex<f64>;
@@ -16,7 +16,7 @@ type C = Complex<f64>;
 /// Rigid motions of a body: surge, sway, heave, roll, pitch, yaw.
 pub const MOTIONS: usize = 6;
 /// Residual of the equations over their right side: well below what the panels leave.
-const TOLERANCE: f64 = 1e-7;
+const TOLERANCE: f64 = 4e-7;
 
 /// Density, gravity and depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,8 +178,13 @@ impl DiffractionProblem {
                     *value = potential * (4.0 * std::f64::consts::PI);
                 }
             }
-            let (solved, uses) = gmres::solve(&right, TOLERANCE, |vectors| system.multiply(vectors))
-                .ok_or(DiffractionError::NoSolution(frequency))?;
+            let (solved, uses) = gmres::solve(
+                &right,
+                TOLERANCE,
+                |vectors| system.multiply(vectors, Accuracy::Rough),
+                |vectors| system.multiply(vectors, Accuracy::Full),
+            )
+            .ok_or(DiffractionError::NoSolution(frequency))?;
             made.iterations += uses;
             let on_hull = |i: usize| if i < self.mesh.hull_count() { images.len() as f64 } else { 0.0 };
             let weights: Vec<f64> = panels.iter().enumerate().map(|(i, panel)| panel.area * on_hull(i)).collect();

@@ -301,27 +301,36 @@ impl WaveKernel {
     ) -> BlockKernel {
         let size = rows.len() * columns.len();
         let mut made = BlockKernel::default();
-        let (mut x, mut y, mut distances) =
-            (Vec::with_capacity(size), Vec::with_capacity(size), Vec::with_capacity(size));
+        let (mut x, mut y, mut distances) = (Vec::new(), Vec::new(), Vec::new());
         let [xs, ys, zs] = &arrays.centroid;
-        let direction = &mut made.direction;
-        for i in rows.clone() {
-            for j in columns.clone() {
-                let (dx, dy, above) = (xs[j] - image[0] * xs[i], ys[j] - image[1] * ys[i], zs[i] + zs[j]);
-                let distance2 = dx * dx + dy * dy;
-                let distance = distance2.sqrt();
-                let over = if distance > 0.0 { 1.0 / distance } else { 0.0 };
-                direction[0].push(dx * over);
-                direction[1].push(dy * over);
-                let is_near = distance2 + above * above < arrays.near[i].max(arrays.near[j]);
-                if is_near {
-                    made.near.push([i, j]);
-                }
-                // what is near is taken elsewhere, and stands as far away here
-                distances.push(distance);
-                x.push(if is_near { 1.0 } else { self.nu * distance });
-                y.push(if is_near { 1.0 } else { -self.nu * above });
-            }
+        let [along, across] = &mut made.direction;
+        for part in [&mut x, &mut y, &mut distances, along, across] {
+            part.resize(size, 0.0);
+        }
+        let others = ColumnPoints {
+            x: &xs[columns.clone()],
+            y: &ys[columns.clone()],
+            z: &zs[columns.clone()],
+            near: &arrays.near[columns.clone()],
+        };
+        let width = columns.len();
+        for (row, i) in rows.clone().enumerate() {
+            let own = row * width..(row + 1) * width;
+            let from = [image[0] * xs[i], image[1] * ys[i], zs[i], arrays.near[i]];
+            let out = [
+                &mut x[own.clone()],
+                &mut y[own.clone()],
+                &mut distances[own.clone()],
+                &mut along[own.clone()],
+                &mut across[own.clone()],
+            ];
+            others.seen_from(from, self.nu, out);
+            made.near.extend(y[own].iter().zip(columns.clone()).filter(|(y, _)| **y < 0.0).map(|(_, j)| [i, j]));
+        }
+        // what is near is taken elsewhere
+        for [i, j] in &made.near {
+            let at = (i - rows.start) * width + j - columns.start;
+            (x[at], y[at]) = (1.0, 1.0);
         }
         let mut batch = WavePartBatch::default();
         self.deep.evaluate_batch(&x, &y, &mut batch);
@@ -409,6 +418,36 @@ impl BlockKernel {
     }
 }
 
+/// Centroids of the second block, and how near they are too near.
+struct ColumnPoints<'a> {
+    x: &'a [f64],
+    y: &'a [f64],
+    z: &'a [f64],
+    near: &'a [f64],
+}
+
+impl ColumnPoints<'_> {
+    /// From a point x, y, z that is too near within the root of its fourth number: X, Y, the horizontal distance, and the unit vector along
+    /// it. Y is -1 where it is too near.
+    fn seen_from(&self, [px, py, pz, near]: [f64; 4], nu: f64, out: [&mut [f64]; 5]) {
+        let count = self.x.len();
+        let (xs, ys, zs, nears) = (&self.x[..count], &self.y[..count], &self.z[..count], &self.near[..count]);
+        let [x, y, distances, along, across] = out.map(|part| &mut part[..count]);
+        for j in 0..count {
+            let (dx, dy, above) = (xs[j] - px, ys[j] - py, pz + zs[j]);
+            let distance2 = dx * dx + dy * dy;
+            let distance = distance2.sqrt();
+            let over = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+            let is_near = distance2 + above * above < near.max(nears[j]);
+            x[j] = nu * distance;
+            y[j] = if is_near { -1.0 } else { -nu * above };
+            distances[j] = distance;
+            along[j] = dx * over;
+            across[j] = dy * over;
+        }
+    }
+}
+
 /// A row of a block.
 struct KernelRow<'a> {
     value: &'a [f64],
@@ -466,7 +505,7 @@ impl WaveSystem {
     }
 
     /// The products of the matrix with vectors.
-    pub fn multiply(&self, vectors: &Columns) -> Columns {
+    pub fn multiply(&self, vectors: &Columns, accuracy: Accuracy) -> Columns {
         let mut made = Columns::zeros(self.count, vectors.count());
         for first in (0..vectors.count()).step_by(LANES) {
             let lanes = first..(first + LANES).min(vectors.count());
@@ -480,12 +519,20 @@ impl WaveSystem {
                     parts
                 })
                 .collect();
+            let narrow: Vec<[f32; 2 * LANES]> = if accuracy == Accuracy::Rough {
+                packed.iter().map(|[re, im]| std::array::from_fn(|i| [re, im][i / LANES][i % LANES] as f32)).collect()
+            } else {
+                Vec::new()
+            };
             let products: Vec<[[f64; LANES]; 2]> = self
                 .matrix
                 .par_chunks(self.count * BLOCK)
                 .flat_map_iter(|rows| {
                     let mut products = vec![[[0.0; LANES]; 2]; rows.len() / self.count];
-                    multiply_rows(rows, &packed, &mut products);
+                    match accuracy {
+                        Accuracy::Full => multiply_rows(rows, &packed, &mut products),
+                        Accuracy::Rough => multiply_rows_roughly(rows, &narrow, &mut products),
+                    }
                     products
                 })
                 .collect();
@@ -496,6 +543,49 @@ impl WaveSystem {
             }
         }
         made
+    }
+}
+
+/// How products of the matrix are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Accuracy {
+    /// In double precision.
+    Full,
+    /// Products in single precision, their sums in double precision after every block: to 1e-7 of the largest.
+    Rough,
+}
+
+/// As [`multiply_rows`] to single precision, real parts of the vectors before their imaginary parts.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+fn multiply_rows_roughly(rows: &[Complex<f32>], vectors: &[[f32; 2 * LANES]], products: &mut [[[f64; LANES]; 2]]) {
+    let count = vectors.len();
+    for (pair, products) in rows.chunks(2 * count).zip(products.chunks_mut(2)) {
+        let (one, other) = pair.split_at(count);
+        // a row that is left over goes with itself
+        let other = if other.is_empty() { one } else { other };
+        let mut sums = [[[0.0; 2 * LANES]; 2]; 2];
+        for ((one, other), vectors) in one.chunks(BLOCK).zip(other.chunks(BLOCK)).zip(vectors.chunks(BLOCK)) {
+            let mut parts = [[[0.0_f32; 2 * LANES]; 2]; 2];
+            for ((a, b), vector) in one.iter().zip(other).zip(vectors) {
+                for lane in 0..2 * LANES {
+                    parts[0][0][lane] += a.re * vector[lane];
+                    parts[0][1][lane] += a.im * vector[lane];
+                    parts[1][0][lane] += b.re * vector[lane];
+                    parts[1][1][lane] += b.im * vector[lane];
+                }
+            }
+            for (sums, parts) in sums.iter_mut().flatten().zip(parts.iter().flatten()) {
+                for (sum, part) in sums.iter_mut().zip(parts) {
+                    *sum += f64::from(*part);
+                }
+            }
+        }
+        for (product, [by_re, by_im]) in products.iter_mut().zip(&sums) {
+            for lane in 0..LANES {
+                product[0][lane] = by_re[lane] - by_im[LANES + lane];
+                product[1][lane] = by_re[LANES + lane] + by_im[lane];
+            }
+        }
     }
 }
 

@@ -20,6 +20,8 @@ const FAR: f64 = 16.0;
 const COLUMNS: usize = 8;
 /// Limits of the rectangles in Y.
 const ROWS: [f64; 5] = [0.0, 2.0, 4.0, 8.0, 16.0];
+/// Behind the rectangles: the far region.
+const FAR_REGION: u8 = ((ROWS.len() - 1) * COLUMNS) as u8;
 /// Terms of the series in 1/d: the last is the least at its beginning.
 const FAR_TERMS: usize = 15;
 /// Below this depth under the source waves are less than rounding of the tables.
@@ -47,6 +49,8 @@ pub struct WavePartBatch {
     pub im_by_x: Vec<f64>,
     /// The points sorted by their region.
     order: Vec<usize>,
+    /// The region of each point.
+    regions: Vec<u8>,
 }
 
 /// The parts of several points: of W real and imaginary, of dW/dX real and imaginary.
@@ -125,41 +129,40 @@ impl WavePartTable {
 }
 
 impl WavePartTable {
-    /// The rectangle of a point, 0 near the source; none far away.
-    fn region(x: f64, y: f64) -> Option<usize> {
-        if x >= FAR || y >= FAR {
-            return None;
-        }
-        let row = ROWS.iter().skip(1).take_while(|limit| y >= **limit).count().min(ROWS.len() - 2);
-        Some(row * COLUMNS + ((x * (1.0 / NEAR)) as usize).min(COLUMNS - 1))
+    /// The rectangle of a point, 0 near the source, [`FAR_REGION`] far away.
+    fn region(x: f64, y: f64) -> u8 {
+        let row = u8::from(y >= ROWS[1]) + u8::from(y >= ROWS[2]) + u8::from(y >= ROWS[3]);
+        let near = row * COLUMNS as u8 + (x * (1.0 / NEAR)) as u8;
+        if x >= FAR || y >= FAR { FAR_REGION } else { near }
     }
 
     /// As [`WavePartTable::evaluate`] at many points of as many `x` as `y`.
     pub fn evaluate_batch(&self, x: &[f64], y: &[f64], made: &mut WavePartBatch) {
         let count = x.len().min(y.len());
-        let WavePartBatch { re, im, re_by_x, im_by_x, order } = made;
+        let WavePartBatch { re, im, re_by_x, im_by_x, order, regions } = made;
         for part in [&mut *re, &mut *im, &mut *re_by_x, &mut *im_by_x] {
             part.resize(count, 0.0);
         }
-        // sorted by region, in the order of the points: the last region is far away
-        let far = ROWS.len() * COLUMNS - COLUMNS;
-        let regions: Vec<usize> = (0..count).map(|i| Self::region(x[i], y[i]).unwrap_or(far)).collect();
-        let mut ends = vec![0; far + 2];
-        for region in &regions {
-            ends[region + 1] += 1;
+        // sorted by region, in the order of the points
+        regions.clear();
+        regions.extend(x.iter().zip(y).map(|(x, y)| Self::region(*x, *y)));
+        let mut ends = [0_usize; FAR_REGION as usize + 2];
+        for region in regions.iter() {
+            ends[usize::from(*region) + 1] += 1;
         }
         for i in 1..ends.len() {
             ends[i] += ends[i - 1];
         }
-        let mut next = ends.clone();
+        let mut next = ends;
         order.resize(count, 0);
         for (i, region) in regions.iter().enumerate() {
-            order[next[*region]] = i;
-            next[*region] += 1;
+            let place = &mut next[usize::from(*region)];
+            order[*place] = i;
+            *place += 1;
         }
         for (region, limits) in ends.windows(2).enumerate() {
             let members = &order[limits[0]..limits[1]];
-            if region == far {
+            if region == usize::from(FAR_REGION) {
                 for i in members {
                     let found = self.evaluate(x[*i], y[*i]);
                     (re[*i], im[*i]) = (found.value.re, found.value.im);
@@ -167,12 +170,16 @@ impl WavePartTable {
                 }
                 continue;
             }
-            for some in members.chunks(LANES) {
-                // lanes that are left over repeat the last point
-                let lane = |of: &[f64]| std::array::from_fn(|lane| of[some[lane.min(some.len() - 1)]]);
-                let found = self.evaluate_lanes(region, &lane(x), &lane(y));
+            let (whole, rest) = members.as_chunks::<LANES>();
+            // lanes that are left over repeat the last point
+            let padded = rest.last().map(|last| std::array::from_fn(|lane| *rest.get(lane).unwrap_or(last)));
+            for some in whole.iter().chain(&padded) {
+                let found = self.evaluate_lanes(region, &some.map(|i| x[i]), &some.map(|i| y[i]));
                 for (lane, i) in some.iter().enumerate() {
-                    [re[*i], im[*i], re_by_x[*i], im_by_x[*i]] = found.map(|part| part[lane]);
+                    re[*i] = found[0][lane];
+                    im[*i] = found[1][lane];
+                    re_by_x[*i] = found[2][lane];
+                    im_by_x[*i] = found[3][lane];
                 }
             }
         }
