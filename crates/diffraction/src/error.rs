@@ -53,6 +53,12 @@ pub enum DiffractionError {
         "the equations of motion at {0:.6} rad/s have no solution that is finite: a motion is without mass and stiffness"
     )]
     NoMotions(f64),
+    /// The zero frequency in finite depth.
+    #[error("the added mass of heave at zero frequency has no limit in water {0} m deep; take a low frequency")]
+    ZeroFrequency(f64),
+    /// Equations of a limit without a solution in numbers.
+    #[error("the system of equations of the added mass at zero or infinite frequency has no solution that is finite")]
+    NoLimit,
     /// The user interrupted.
     #[error("interrupted")]
     Interrupted,

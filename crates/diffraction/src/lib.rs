@@ -44,5 +44,5 @@ pub use error::DiffractionError;
 pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
 pub use panel::Panel;
-pub use problem::{DiffractionBody, DiffractionProblem, FrequencyForces, MOTIONS, Water};
+pub use problem::{DiffractionBody, DiffractionProblem, FrequencyForces, FrequencyLimit, MOTIONS, Water};
 pub use wave_solution::{FarFieldDrift, WaveSolution};

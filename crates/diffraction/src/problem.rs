@@ -5,10 +5,10 @@ use crate::gmres::{self, Columns};
 use crate::incident_wave::IncidentWave;
 use crate::mesh::HullMesh;
 use crate::panel::Panel;
-use crate::rankine::{RankinePart, rankine_parts};
+use crate::rankine::{LevelImage, RankinePart, rankine_parts};
 use crate::symmetry::SymmetryClass;
 use crate::wave_solution::WaveSolution;
-use crate::wave_system::{Accuracy, WaveKernel, wave_systems};
+use crate::wave_system::{Accuracy, WaveKernel, WaveSystem, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
 
 type C = Complex<f64>;
@@ -53,6 +53,15 @@ pub struct DiffractionProblem {
     /// Largest horizontal distance between points of the hulls and their images (m).
     reach: f64,
     draught: f64,
+}
+
+/// Frequencies at which waves are not sent out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrequencyLimit {
+    /// Motions so slow that the surface stays flat.
+    Zero,
+    /// Motions so quick that the pressure at the mean level stays zero.
+    Infinite,
 }
 
 /// Forces at one frequency, for the time factor `exp(-i omega t)`; six motions a body, about its origin.
@@ -115,9 +124,51 @@ impl DiffractionProblem {
             if mirrored { 2.0 * high } else { high - low }
         };
         let reach = extent(0, mirrors.x).hypot(extent(1, mirrors.y));
-        let rankine = rankine_parts(&mesh, &classes, &velocities, water.depth);
+        let rankine = rankine_parts(&mesh, &classes, &velocities, &LevelImage::of_all_frequencies(water.depth));
         let motion_count = MOTIONS * bodies.len();
         Ok(DiffractionProblem { mesh, water, classes, motions, velocities, rankine, motion_count, reach, draught })
+    }
+
+    /// The added mass (kg, kg m, kg m2) at the zero or the infinite frequency, where there are no waves and no damping.
+    ///
+    /// # Errors
+    /// The zero frequency in water of finite depth, where that of heave has no limit; equations whose solution is not finite.
+    pub fn added_mass_limit(&self, limit: FrequencyLimit) -> Result<DMatrix<f64>, DiffractionError> {
+        let levels = match (limit, self.water.depth) {
+            (FrequencyLimit::Infinite, depth) => LevelImage::of_infinite_frequency(depth),
+            (FrequencyLimit::Zero, None) => LevelImage::of_all_frequencies(None),
+            (FrequencyLimit::Zero, Some(depth)) => return Err(DiffractionError::ZeroFrequency(depth)),
+        };
+        // no waves inside of the hull: no lid
+        let mesh = HullMesh::from_panels(self.mesh.hull().to_vec(), Vec::new(), self.mesh.mirrors())?;
+        let count = mesh.hull_count();
+        let velocities: Vec<Vec<f64>> = self
+            .velocities
+            .iter()
+            .zip(&self.motions)
+            .map(|(velocities, motions)| velocities[..count * motions.len()].to_vec())
+            .collect();
+        let parts = rankine_parts(&mesh, &self.classes, &velocities, &levels);
+        let images = mesh.mirrors().images().len() as f64;
+        let mut added_mass = DMatrix::zeros(self.motion_count, self.motion_count);
+        for ((part, motions), velocities) in parts.iter().zip(&self.motions).zip(&velocities) {
+            let system = WaveSystem::from_rankine(part, count, count, 0.0);
+            let (solved, _) = solve_system(&system, &system.radiation).ok_or(DiffractionError::NoLimit)?;
+            for (column, motion) in motions.iter().enumerate() {
+                for (row, force) in motions.iter().enumerate() {
+                    let own = velocities.iter().skip(row).step_by(motions.len());
+                    let integral: f64 = solved
+                        .column(column)
+                        .iter()
+                        .zip(own)
+                        .zip(mesh.hull())
+                        .map(|((potential, n), panel)| potential.re * n * panel.area)
+                        .sum();
+                    added_mass[(*force, *motion)] = integral * images * self.water.density;
+                }
+            }
+        }
+        Ok(added_mass)
     }
 
     /// Solves the radiation problems and the diffraction problem of each heading (rad, where the waves go to, 0 along x).
@@ -178,13 +229,7 @@ impl DiffractionProblem {
                     *value = potential * (4.0 * std::f64::consts::PI);
                 }
             }
-            let (solved, uses) = gmres::solve(
-                &right,
-                TOLERANCE,
-                |vectors| system.multiply(vectors, Accuracy::Rough),
-                |vectors| system.multiply(vectors, Accuracy::Full),
-            )
-            .ok_or(DiffractionError::NoSolution(frequency))?;
+            let (solved, uses) = solve_system(system, &right).ok_or(DiffractionError::NoSolution(frequency))?;
             made.iterations += uses;
             let on_hull = |i: usize| if i < self.mesh.hull_count() { images.len() as f64 } else { 0.0 };
             let weights: Vec<f64> = panels.iter().enumerate().map(|(i, panel)| panel.area * on_hull(i)).collect();
@@ -242,6 +287,15 @@ impl DiffractionProblem {
             diffracted,
         })
     }
+}
+
+fn solve_system(system: &WaveSystem, right: &Columns) -> Option<(Columns, usize)> {
+    gmres::solve(
+        right,
+        TOLERANCE,
+        |vectors| system.multiply(vectors, Accuracy::Rough),
+        |vectors| system.multiply(vectors, Accuracy::Full),
+    )
 }
 
 /// Velocities of the surface along the normal out of the water, for unit velocity of each motion about an origin.

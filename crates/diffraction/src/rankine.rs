@@ -15,6 +15,46 @@ pub struct RankinePart {
     pub single_layer: Vec<f64>,
 }
 
+/// An image of a source at the mean level or the bottom: at the height `sign z + shift`, with a strength.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelImage {
+    /// 1, or -1 where it is turned upside down.
+    pub sign: f64,
+    /// Shift (m).
+    pub shift: f64,
+    /// Strength over that of the source.
+    pub strength: f64,
+}
+
+/// Pairs of images above and below in water of finite depth at the infinite frequency, where they alternate; the last pair has half its
+/// strength. Sixteen leave 1e-4 of the sum.
+const ALTERNATING_PAIRS: i32 = 16;
+
+impl LevelImage {
+    fn new(sign: f64, shift: f64, strength: f64) -> Self {
+        LevelImage { sign, shift, strength }
+    }
+
+    /// The source, its image above the mean level and that below the bottom: the part of every frequency that is not in the wave part.
+    pub fn of_all_frequencies(depth: Option<f64>) -> Vec<Self> {
+        let above = [LevelImage::new(1.0, 0.0, 1.0), LevelImage::new(-1.0, 0.0, 1.0)];
+        above.into_iter().chain(depth.map(|depth| LevelImage::new(-1.0, -2.0 * depth, 1.0))).collect()
+    }
+
+    /// Where the potential is zero at the mean level.
+    pub fn of_infinite_frequency(depth: Option<f64>) -> Vec<Self> {
+        let pairs = if depth.is_some() { ALTERNATING_PAIRS } else { 0 };
+        (-pairs..=pairs)
+            .flat_map(|n| {
+                let shift = 2.0 * f64::from(n) * depth.unwrap_or_default();
+                let end = if n.abs() == pairs && pairs > 0 { 0.5 } else { 1.0 };
+                let strength = if n % 2 == 0 { end } else { -end };
+                [LevelImage::new(1.0, shift, strength), LevelImage::new(-1.0, shift, -strength)]
+            })
+            .collect()
+    }
+}
+
 /// Position of an image of a point at the planes x = 0 and y = 0.
 pub fn mirrored(point: &Vector3<f64>, image: [f64; 2]) -> Vector3<f64> {
     Vector3::new(point.x * image[0], point.y * image[1], point.z)
@@ -26,7 +66,7 @@ pub fn rankine_parts(
     panels: &HullMesh,
     classes: &[SymmetryClass],
     velocities: &[Vec<f64>],
-    depth: Option<f64>,
+    levels: &[LevelImage],
 ) -> Vec<RankinePart> {
     let count = panels.panels().len();
     let images = panels.mirrors().images();
@@ -43,10 +83,10 @@ pub fn rankine_parts(
                     .iter()
                     .map(|image| {
                         let own = mirrored(&from, *image);
-                        let heights = [Some(own.z), Some(-own.z), depth.map(|depth| -2.0 * depth - own.z)];
-                        heights.into_iter().flatten().fold([0.0; 2], |[potential, angle], z| {
+                        levels.iter().fold([0.0; 2], |[potential, angle], level| {
+                            let z = level.sign * own.z + level.shift;
                             let [p, a] = panel.rankine(&Vector3::new(own.x, own.y, z));
-                            [potential + p, angle + a]
+                            [potential + level.strength * p, angle + level.strength * a]
                         })
                     })
                     .collect();

@@ -152,28 +152,8 @@ pub fn wave_systems(
     let lid_factor = kernel.nu as f32;
     let blocks = count.div_ceil(BLOCK);
     let pairs: Vec<[usize; 2]> = (0..blocks).flat_map(|i| (i..blocks).map(move |j| [i, j])).collect();
-    let mut systems: Vec<WaveSystem> = rankine
-        .iter()
-        .map(|part| {
-            let motions = part.single_layer.len() / count;
-            let mut radiation = Columns::zeros(count, motions);
-            for motion in 0..motions {
-                for (value, part) in
-                    radiation.column_mut(motion).iter_mut().zip(part.single_layer.iter().skip(motion).step_by(motions))
-                {
-                    *value = C::new(*part, 0.0);
-                }
-            }
-            let mut matrix: Vec<_> = part.double_layer.iter().map(|re| Complex::new(*re, 0.0)).collect();
-            for (i, row) in matrix.chunks_exact_mut(count).enumerate() {
-                for entry in row.iter_mut().skip(hull) {
-                    *entry *= lid_factor;
-                }
-                row[i] += if i < hull { 2.0 * std::f32::consts::PI } else { 4.0 * std::f32::consts::PI };
-            }
-            WaveSystem { count, matrix, radiation }
-        })
-        .collect();
+    let mut systems: Vec<WaveSystem> =
+        rankine.iter().map(|part| WaveSystem::from_rankine(part, count, hull, lid_factor)).collect();
     let arrays = PanelArrays::new(mesh, kernel.nu, velocities);
     // so many pairs at a time that what waits to be added stays small
     for some in pairs.chunks(4 * rayon::current_num_threads().max(1)) {
@@ -482,6 +462,27 @@ impl KernelRow<'_> {
 }
 
 impl WaveSystem {
+    /// The part that does not depend on the frequency; `lid_factor` is `nu` (1/m).
+    pub fn from_rankine(part: &RankinePart, count: usize, hull: usize, lid_factor: f32) -> Self {
+        let motions = part.single_layer.len() / count;
+        let mut radiation = Columns::zeros(count, motions);
+        for motion in 0..motions {
+            for (value, part) in
+                radiation.column_mut(motion).iter_mut().zip(part.single_layer.iter().skip(motion).step_by(motions))
+            {
+                *value = C::new(*part, 0.0);
+            }
+        }
+        let mut matrix: Vec<_> = part.double_layer.iter().map(|re| Complex::new(*re, 0.0)).collect();
+        for (i, row) in matrix.chunks_exact_mut(count).enumerate() {
+            for entry in row.iter_mut().skip(hull) {
+                *entry *= lid_factor;
+            }
+            row[i] += if i < hull { 2.0 * std::f32::consts::PI } else { 4.0 * std::f32::consts::PI };
+        }
+        WaveSystem { count, matrix, radiation }
+    }
+
     fn add(&mut self, blocks: [usize; 2], ClassPair { entries, sides }: &ClassPair) {
         let motions = self.radiation.count();
         let [rows, columns] = blocks.map(|block| block * BLOCK..((block + 1) * BLOCK).min(self.count));

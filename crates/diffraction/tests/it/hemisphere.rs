@@ -1,6 +1,9 @@
 use nalgebra::{Complex, Vector3};
 use std::f64::consts::{FRAC_PI_2, PI};
-use windlass_diffraction::{DiffractionBody, DiffractionProblem, FrequencyForces, HullMesh, MirrorPlanes, Water};
+use windlass_diffraction::{
+    DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh, MirrorPlanes,
+    Water,
+};
 
 pub const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
 pub const QUARTER: MirrorPlanes = MirrorPlanes { x: true, y: true };
@@ -131,4 +134,39 @@ fn damping_of_hemisphere_is_energy_of_radiated_waves() {
             assert!((energy / damping - 1.0).abs() < 0.005, "{k} {mode}: {energy} {damping}");
         }
     }
+}
+
+#[test]
+fn added_mass_of_hemisphere_has_exact_limits() {
+    // doubled about the mean level it is a sphere: A33 at infinity and A11 at zero are half of the displaced mass; A11 at infinity is 0.2732
+    // [HULME-1982]. A33 at zero is that of a sphere whose halves part, with the normal velocity |mu| = sum (2 n + 1) I_n P_n(mu) over even n,
+    // I_n = int_0^1 mu P_n dmu: A33/M = 3 sum (2 n + 1) I_n^2/(n + 1)
+    let (mut integral, mut parting) = (0.5, 0.0);
+    for n in (0..40).step_by(2).map(f64::from) {
+        parting += 3.0 * (2.0 * n + 1.0) * integral * integral / (n + 1.0);
+        integral *= -(n - 1.0) / (n + 4.0);
+    }
+    let problem = problem(20, QUARTER);
+    let mass = 2.0 / 3.0 * PI * WATER.density;
+    let limit = |limit| problem.added_mass_limit(limit).unwrap() / mass;
+    let [zero, infinite] = [FrequencyLimit::Zero, FrequencyLimit::Infinite].map(limit);
+    for (found, exact) in
+        [(infinite[(2, 2)], 0.5), (zero[(0, 0)], 0.5), (infinite[(0, 0)], 0.2732), (zero[(2, 2)], parting)]
+    {
+        assert!((found - exact).abs() < 0.003, "{found} for {exact}");
+    }
+}
+
+#[test]
+fn added_mass_at_infinity_in_deep_finite_depth_is_that_of_deep_water() {
+    let body = |depth: Option<f64>| {
+        let body = DiffractionBody { mesh: hemisphere(6, QUARTER), origin: Vector3::zeros() };
+        DiffractionProblem::new(&[body], Water { depth, ..WATER }).unwrap()
+    };
+    let [deep, bounded] =
+        [None, Some(12.0)].map(|depth| body(depth).added_mass_limit(FrequencyLimit::Infinite).unwrap());
+    let difference = (&deep - &bounded).amax() / deep.amax();
+    assert!(difference < 1e-3, "{difference}");
+    let refused = body(Some(12.0)).added_mass_limit(FrequencyLimit::Zero).unwrap_err();
+    assert_eq!(refused, DiffractionError::ZeroFrequency(12.0));
 }
