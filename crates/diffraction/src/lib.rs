@@ -26,6 +26,7 @@
 
 mod dispersion;
 mod error;
+mod field;
 mod free_body;
 mod gauss;
 mod gmres;
@@ -41,6 +42,7 @@ mod wave_solution;
 mod wave_system;
 
 pub use error::DiffractionError;
+pub use field::{ControlCylinder, ControlSurfaceDrift};
 pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
 pub use panel::Panel;

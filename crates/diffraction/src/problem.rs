@@ -5,11 +5,12 @@ use crate::gmres::{self, Columns};
 use crate::incident_wave::IncidentWave;
 use crate::mesh::HullMesh;
 use crate::panel::Panel;
-use crate::rankine::{LevelImage, RankinePart, rankine_parts};
+use crate::rankine::{LevelImage, RankinePart, mirrored, rankine_parts};
 use crate::symmetry::SymmetryClass;
 use crate::wave_solution::WaveSolution;
 use crate::wave_system::{Accuracy, WaveKernel, WaveSystem, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
+use std::sync::Arc;
 
 type C = Complex<f64>;
 
@@ -41,7 +42,7 @@ pub struct DiffractionBody {
 /// Bodies in water with all that does not depend on the frequency.
 #[derive(Clone, Debug)]
 pub struct DiffractionProblem {
-    mesh: HullMesh,
+    mesh: Arc<HullMesh>,
     water: Water,
     classes: Vec<SymmetryClass>,
     /// Of each class: the motions (six a body) whose velocities are in it.
@@ -90,7 +91,7 @@ impl DiffractionProblem {
         if !(water.density > 0.0 && water.gravity > 0.0 && (water.density * water.gravity).is_finite()) {
             return Err(DiffractionError::Water);
         }
-        let mesh = HullMesh::joined(bodies.iter().map(|body| &body.mesh))?;
+        let mesh = Arc::new(HullMesh::joined(bodies.iter().map(|body| &body.mesh))?);
         let mirrors = mesh.mirrors();
         let classes = SymmetryClass::all(mirrors);
         let motions: Vec<Vec<usize>> = classes
@@ -127,6 +128,30 @@ impl DiffractionProblem {
         let rankine = rankine_parts(&mesh, &classes, &velocities, &LevelImage::of_all_frequencies(water.depth));
         let motion_count = MOTIONS * bodies.len();
         Ok(DiffractionProblem { mesh, water, classes, motions, velocities, rankine, motion_count, reach, draught })
+    }
+
+    /// Density, gravity and depth.
+    pub(crate) fn water(&self) -> Water {
+        self.water
+    }
+
+    /// x and y of the middle of the hulls, their largest distance from it and their draught (m).
+    pub(crate) fn extent(&self) -> ([f64; 2], f64, f64) {
+        let images = self.mesh.mirrors().images();
+        let corners = || {
+            let of_image = |image: &[f64; 2]| {
+                let image = *image;
+                self.mesh.hull().iter().flat_map(|panel| panel.corners()).map(move |corner| mirrored(corner, image))
+            };
+            images.iter().flat_map(of_image)
+        };
+        let middle = [0, 1].map(|axis| {
+            let (low, high) = corners()
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at[axis]), high.max(at[axis])));
+            0.5 * (low + high)
+        });
+        let radius = corners().map(|at| (at.x - middle[0]).hypot(at.y - middle[1])).fold(0.0, f64::max);
+        (middle, radius, self.draught)
     }
 
     /// The added mass (kg, kg m, kg m2) at the zero or the infinite frequency, where there are no waves and no damping.
@@ -279,6 +304,7 @@ impl DiffractionProblem {
             forces: made,
             wave,
             amplitude,
+            mesh: Arc::clone(&self.mesh),
             surface,
             headings: headings.to_vec(),
             water: self.water,

@@ -11,10 +11,11 @@
 //! is the mean drift [MARUO-1960] [NEWMAN-1967].
 
 use crate::incident_wave::IncidentWave;
-use crate::mesh::SurfaceElement;
+use crate::mesh::{HullMesh, SurfaceElement};
 use crate::problem::{FrequencyForces, Water};
 use nalgebra::Complex;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 type C = Complex<f64>;
 
@@ -29,6 +30,7 @@ pub struct WaveSolution {
     pub(crate) wave: IncidentWave,
     /// Of the Green function far away (1/m).
     pub(crate) amplitude: f64,
+    pub(crate) mesh: Arc<HullMesh>,
     pub(crate) surface: Vec<SurfaceElement>,
     pub(crate) headings: Vec<f64>,
     pub(crate) water: Water,
@@ -103,7 +105,7 @@ impl WaveSolution {
 
     /// The potential whose waves go out from the bodies, and its derivative along the normal; that of the incident wave goes through the
     /// hull and sends out nothing.
-    fn sent_out(&self, heading: usize, motions: &[C]) -> Option<(Vec<C>, Vec<C>)> {
+    pub(crate) fn sent_out(&self, heading: usize, motions: &[C]) -> Option<(Vec<C>, Vec<C>)> {
         let mut potential = self.diffracted.get(heading)?.clone();
         let mut by_normal = vec![C::default(); potential.len()];
         if motions.len() != self.radiated.len() {

@@ -61,17 +61,33 @@ impl WaveKernel {
         }
     }
 
+    /// The potential over a panel, and the derivative along its normal into the water: at its centroid, or near its image at four points.
+    pub fn over_panel(&self, from: &Vector3<f64>, panel: &Panel) -> (C, C) {
+        let arm = panel.centroid - from;
+        let above = panel.centroid.z + from.z;
+        let distance2 = arm.x * arm.x + arm.y * arm.y;
+        if distance2 + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2) {
+            return self.over_points(from, panel);
+        }
+        self.over_point(from, panel, &panel.centroid, panel.area)
+    }
+
     /// Over a panel at four points: the potential, and the derivative along its normal into the water.
     fn over_points(&self, from: &Vector3<f64>, panel: &Panel) -> (C, C) {
         panel.rule().iter().fold((C::default(), C::default()), |(potential, derivative), (point, area)| {
-            let (dx, dy) = (point.x - from.x, point.y - from.y);
-            let distance = (dx * dx + dy * dy).sqrt();
-            let part = self.part(distance, [from.z, point.z]);
-            let normal = &panel.normal;
-            let across = if distance > 0.0 { (dx * normal.x + dy * normal.y) / distance } else { 0.0 };
-            let by_normal = part.by_distance * across + part.by_heights[1] * normal.z;
-            (potential + part.value * *area, derivative + by_normal * *area)
+            let (value, by_normal) = self.over_point(from, panel, point, *area);
+            (potential + value, derivative + by_normal)
         })
+    }
+
+    fn over_point(&self, from: &Vector3<f64>, panel: &Panel, point: &Vector3<f64>, area: f64) -> (C, C) {
+        let (dx, dy) = (point.x - from.x, point.y - from.y);
+        let distance = (dx * dx + dy * dy).sqrt();
+        let part = self.part(distance, [from.z, point.z]);
+        let normal = &panel.normal;
+        let across = if distance > 0.0 { (dx * normal.x + dy * normal.y) / distance } else { 0.0 };
+        let by_normal = part.by_distance * across + part.by_heights[1] * normal.z;
+        (part.value * area, by_normal * area)
     }
 }
 

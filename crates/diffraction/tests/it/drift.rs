@@ -2,7 +2,9 @@ use crate::cylinder::{CylinderMesh, problem as in_depth, rows};
 use crate::hemisphere::{QUARTER, WATER, hemisphere, problem as of_hemisphere};
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::f64::consts::PI;
-use windlass_diffraction::{DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes, free_motions};
+use windlass_diffraction::{
+    ControlCylinder, DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes, free_motions,
+};
 
 const FIXED: [Complex<f64>; 6] = [Complex::new(0.0, 0.0); 6];
 
@@ -76,4 +78,47 @@ fn oblique_drift_turns_with_wave_and_has_moment_about_distant_origin() {
     assert!((found.yaw - moment).abs() < 5e-3 * force, "{found:?} {moment}");
     assert!(found.energy_residual.abs() < 0.02, "{found:?}");
     assert!(waves.far_field_drift(1, &FIXED).is_none() && waves.far_field_drift(0, &FIXED[..3]).is_none());
+}
+
+#[test]
+fn control_surface_drift_of_hemisphere_meets_exact_series() {
+    // 1.5 % of the largest drift of each column
+    let problem = of_hemisphere(14, QUARTER);
+    let cylinder = problem.control_cylinder();
+    for n in rows(include_str!("../data/hemisphere.csv")).iter().filter(|n| [0.5, 1.0, 1.4, 2.0].contains(&n[0])) {
+        let waves = problem.solve_waves((n[0] * WATER.gravity).sqrt(), &[0.0]).unwrap();
+        let free = free_motions(&waves.forces, &free_hemisphere()).unwrap();
+        for (motions, exact, largest) in [(vec![FIXED.to_vec()], n[9], 0.648), (free, n[10], 0.872)] {
+            let found = waves.control_surface_drift(&motions, &cylinder).unwrap()[0];
+            let surge = found.surge / (WATER.density * WATER.gravity);
+            assert!((surge - exact).abs() < 0.015 * largest, "K {}: {surge} for {exact}", n[0]);
+        }
+    }
+    let crossing = ControlCylinder { radius: 0.5, ..cylinder };
+    let waves = problem.solve_waves(3.0, &[0.0]).unwrap();
+    assert!(waves.control_surface_drift(&[FIXED.to_vec()], &crossing).is_none());
+}
+
+#[test]
+fn elevation_around_bottom_mounted_cylinder_meets_closed_form() {
+    // [MACCAMY-FUCHS-1954] at k a = 1: sum e_m i^m (J_m(kr) - J_m'(ka)/H_m'(ka) H_m(kr)) cos m theta; 1 % of the
+    // incident wave
+    let problem = in_depth(CylinderMesh { draught: 2.0, rows: 20, rings: 0, turns: 12 }.build(), 2.0);
+    let (k, radius) = (1.0_f64, 1.5_f64);
+    let waves = problem.solve_waves((9.81 * k * (2.0 * k).tanh()).sqrt(), &[0.0]).unwrap();
+    let angles = [0.0_f64, 1.0, 2.0, PI];
+    let points = angles.map(|angle| [radius * angle.cos(), radius * angle.sin()]);
+    let found = waves.elevations(&[FIXED.to_vec()], &points).unwrap();
+    let bessel = |m: i32, x: f64| Complex::new(libm::jn(m, x), libm::yn(m, x));
+    let slope = |m: i32, x: f64| if m == 0 { -bessel(1, x) } else { (bessel(m - 1, x) - bessel(m + 1, x)) * 0.5 };
+    for (angle, found) in angles.into_iter().zip(&found[0]) {
+        let exact: Complex<f64> = (0..16)
+            .map(|m| {
+                let scattered = bessel(m, k * radius) * (slope(m, k).re / slope(m, k));
+                let own = (Complex::from(bessel(m, k * radius).re) - scattered) * (f64::from(m) * angle).cos();
+                own * Complex::i().powi(m) * if m == 0 { 1.0 } else { 2.0 }
+            })
+            .sum();
+        assert!((found - exact).norm() < 0.01, "{angle}: {found} for {exact}");
+    }
 }
