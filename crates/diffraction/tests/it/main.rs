@@ -6,3 +6,4 @@ mod cylinder;
 mod drift;
 mod green_function;
 mod hemisphere;
+mod two_boxes;
