@@ -59,6 +59,12 @@ pub enum DiffractionError {
     /// Equations of a limit without a solution in numbers.
     #[error("the system of equations of the added mass at zero or infinite frequency has no solution that is finite")]
     NoLimit,
+    /// Wave drift damping in finite depth.
+    #[error("wave drift damping is for deep water, the water is {0} m deep")]
+    DriftDampingDepth(f64),
+    /// Motions of another number than six a body, or not for each heading.
+    #[error("motions have to be six a body for each heading")]
+    MotionCount,
     /// The user interrupted.
     #[error("interrupted")]
     Interrupted,

@@ -25,6 +25,7 @@
 #![deny(missing_docs)]
 
 mod dispersion;
+mod drift_damping;
 mod error;
 mod field;
 mod free_body;
@@ -41,6 +42,7 @@ mod symmetry;
 mod wave_solution;
 mod wave_system;
 
+pub use drift_damping::DriftDamping;
 pub use error::DiffractionError;
 pub use field::{ControlCylinder, ControlSurfaceDrift};
 pub use free_body::{FreeBody, free_motions};
