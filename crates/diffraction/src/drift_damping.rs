@@ -1,7 +1,7 @@
 //! Wave drift damping from the mean drift in waves of other frequencies and headings [ARANHA-1994].
 //!
-//! A body that drifts slowly through deep water meets other waves: their frequency is shifted, their heading turned. To first order in the
-//! velocity the drift changes by
+//! A body that drifts slowly through deep water meets other waves: their frequency is shifted, their heading turned. To first order in its
+//! velocity V the force falls by `B V`,
 //!
 //! ```text
 //! B_ix = omega/g [(4 F_i + omega dF_i/domega) cos beta - 2 dF_i/dbeta sin beta]
@@ -23,7 +23,8 @@ const HEADING_STEP: f64 = 0.02;
 pub struct DriftDamping {
     /// Mean force along x and y (N/m2).
     pub force: Vector2<f64>,
-    /// Damping: row the force, column the velocity (N s/m3). The force in a current of velocity U is `force + damping U`.
+    /// Damping: row the force, column the velocity (N s/m3). A body with the velocity V through the water has the force `force -
+    /// damping V`.
     pub damping: Matrix2<f64>,
 }
 

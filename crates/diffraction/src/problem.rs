@@ -82,6 +82,25 @@ pub struct FrequencyForces {
     pub iterations: usize,
 }
 
+impl FrequencyForces {
+    /// The largest difference between exciting forces by pressure and by Haskind's relation, over the largest force or moment of all bodies and
+    /// headings: forces and moments apart, the larger of the two. It measures the mesh; 0 where there are no headings.
+    pub fn excitation_difference(&self) -> f64 {
+        let mut kinds = [[0.0_f64; 2]; 2];
+        for (by_pressure, by_haskind) in self.excitation.iter().zip(&self.haskind) {
+            for (motion, (pressure, haskind)) in by_pressure.iter().zip(by_haskind).enumerate() {
+                let [difference, largest] = &mut kinds[usize::from(motion % MOTIONS >= 3)];
+                *difference = difference.max((pressure - haskind).norm());
+                *largest = largest.max(pressure.norm());
+            }
+        }
+        kinds
+            .iter()
+            .filter(|kind| kind[1] > 0.0)
+            .fold(0.0, |most: f64, [difference, largest]| most.max(difference / largest))
+    }
+}
+
 impl DiffractionProblem {
     /// Prepares bodies in water.
     ///

@@ -6,7 +6,11 @@ const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
 
 /// A box 2 long, 1 wide and 0.5 deep about (0, y), panels smaller towards the edges, as in tests/data/two_boxes.py.
 fn floating_box(y: f64) -> DiffractionBody {
-    let counts = [14, 8, 7];
+    box_of([14, 8, 7], y)
+}
+
+/// The same with so many panels along its length, width and height.
+fn box_of(counts: [usize; 3], y: f64) -> DiffractionBody {
     let spread = |i: usize, n: usize| 0.5 * (1.0 - (PI * i as f64 / n as f64).cos());
     let [nx, ny, nz] = counts;
     let at = |i: usize, j: usize, k: usize| {
@@ -69,6 +73,33 @@ fn two_floating_boxes_meet_capytaine_on_same_mesh() {
         let share = if (*what, *kind) == ("X by pressure", 1) { 0.015 } else { 0.01 };
         assert!((made - given).norm() < share * peak, "{what} of kind {kind}: {made} for {given}, peak {peak}");
     }
+}
+
+#[test]
+fn digits_do_not_depend_on_number_of_threads() {
+    let solve = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let problem = DiffractionProblem::new(&[floating_box(0.0)], WATER).unwrap();
+            let waves = problem.solve_waves(3.0, &[0.5]).unwrap();
+            let drift = waves.far_field_drift(0, &[Complex::default(); 6]).unwrap();
+            (waves.forces.added_mass, waves.forces.damping, waves.forces.excitation, drift)
+        })
+    };
+    let one = solve(1);
+    for threads in [2, 3] {
+        assert_eq!(solve(threads), one);
+    }
+}
+
+#[test]
+fn difference_of_excitations_falls_with_panel_size() {
+    let difference = |counts: [usize; 3]| {
+        let problem = DiffractionProblem::new(&[box_of(counts, 0.0)], WATER).unwrap();
+        problem.solve(3.5, &[0.5]).unwrap().excitation_difference()
+    };
+    let [coarse, fine] = [[7, 4, 3], [14, 8, 7]].map(difference);
+    assert!(fine < 0.6 * coarse && coarse < 0.1 && fine > 1e-4, "{coarse} {fine}");
 }
 
 #[test]
