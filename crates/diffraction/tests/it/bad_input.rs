@@ -1,4 +1,4 @@
-use nalgebra::Vector3;
+use nalgebra::{Complex, Vector3};
 use windlass_diffraction::{DiffractionBody, DiffractionError, DiffractionProblem, HullMesh, MirrorPlanes, Water};
 
 const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
@@ -38,4 +38,17 @@ fn wrong_water_and_frequencies_are_refused() {
     let problem = problem(WATER).unwrap();
     assert_eq!(problem.solve(0.0, &[0.0]).unwrap_err(), DiffractionError::Frequency(0.0));
     assert!(matches!(problem.solve(f64::INFINITY, &[0.0]), Err(DiffractionError::Frequency(_))));
+}
+
+#[test]
+fn points_outside_of_water_have_no_potential() {
+    let waves = problem(Water { depth: Some(10.0), ..WATER }).unwrap().solve_waves(2.0, &[0.0]).unwrap();
+    let motions = vec![vec![Complex::default(); 6]];
+    let has_potential = |at: Vector3<f64>| waves.potentials(&motions, &[at]).is_some();
+    assert!(has_potential(Vector3::new(4.0, 0.0, -1.0)));
+    for z in [0.1, -11.0, f64::NAN] {
+        assert!(!has_potential(Vector3::new(4.0, 0.0, z)), "{z}");
+    }
+    assert!(!has_potential(Vector3::new(1e9, 0.0, -1.0)));
+    assert!(waves.potentials(&[], &[Vector3::zeros()]).is_none());
 }
