@@ -1,7 +1,7 @@
 //! The equations at one frequency: the wave part of the Green function, added to the Rankine part.
 
 use crate::gmres::Columns;
-use crate::green::{FiniteDepthTable, FrequencyPart, WavePartBatch, WavePartTable};
+use crate::green::{FiniteDepthTable, FrequencyPart, WavePart, WavePartBatch, WavePartTable};
 use crate::mesh::HullMesh;
 use crate::panel::Panel;
 use crate::rankine::{RankinePart, mirrored};
@@ -80,14 +80,57 @@ impl WaveKernel {
         })
     }
 
+    /// As [`WaveKernel::over_points`] of many panels, each seen from a point of its own.
+    fn over_points_batch(&self, views: &[(Vector3<f64>, &Panel)]) -> Vec<(C, C)> {
+        let points = || views.iter().flat_map(|(from, panel)| panel.rule().iter().map(move |(at, _)| (from, at)));
+        let distance = |(from, at): (&Vector3<f64>, &Vector3<f64>)| {
+            let (dx, dy) = (at.x - from.x, at.y - from.y);
+            (dx * dx + dy * dy).sqrt()
+        };
+        let x: Vec<f64> = points().map(|pair| self.nu * distance(pair)).collect();
+        let y: Vec<f64> = points().map(|(from, at)| -self.nu * (from.z + at.z)).collect();
+        let mut batch = WavePartBatch::default();
+        self.deep.evaluate_batch(&x, &y, &mut batch);
+        let part = |index: usize| WavePart {
+            value: C::new(batch.re[index], batch.im[index]),
+            by_x: C::new(batch.re_by_x[index], batch.im_by_x[index]),
+        };
+        views
+            .iter()
+            .enumerate()
+            .map(|(view, (from, panel))| {
+                let mut sums = (C::default(), C::default());
+                for (i, (point, area)) in panel.rule().iter().enumerate() {
+                    let index = view * panel.rule().len() + i;
+                    let found = FrequencyPart::from_wave_part(part(index), self.nu, [x[index], y[index]]);
+                    let distance = distance((from, point));
+                    let found = match &self.bottom {
+                        None => found,
+                        Some(bottom) => bottom.correct(found, distance, [from.z, point.z]),
+                    };
+                    let (value, by_normal) = Self::on_panel(&found, from, panel, point);
+                    sums = (sums.0 + value * *area, sums.1 + by_normal * *area);
+                }
+                sums
+            })
+            .collect()
+    }
+
     fn over_point(&self, from: &Vector3<f64>, panel: &Panel, point: &Vector3<f64>, area: f64) -> (C, C) {
         let (dx, dy) = (point.x - from.x, point.y - from.y);
         let distance = (dx * dx + dy * dy).sqrt();
         let part = self.part(distance, [from.z, point.z]);
+        let (value, by_normal) = Self::on_panel(&part, from, panel, point);
+        (value * area, by_normal * area)
+    }
+
+    /// The potential at a point of a panel, and the derivative along its normal into the water.
+    fn on_panel(part: &FrequencyPart, from: &Vector3<f64>, panel: &Panel, point: &Vector3<f64>) -> (C, C) {
+        let (dx, dy) = (point.x - from.x, point.y - from.y);
+        let distance = (dx * dx + dy * dy).sqrt();
         let normal = &panel.normal;
         let across = if distance > 0.0 { (dx * normal.x + dy * normal.y) / distance } else { 0.0 };
-        let by_normal = part.by_distance * across + part.by_heights[1] * normal.z;
-        (part.value * area, by_normal * area)
+        (part.value, part.by_distance * across + part.by_heights[1] * normal.z)
     }
 }
 
@@ -211,14 +254,16 @@ fn block_pair(
             block.derivatives(arrays, &rows, &columns, [1.0; 2], 0),
             if ways == 2 { block.derivatives(arrays, &rows, &columns, image, 1) } else { Default::default() },
         ];
-        let near: Vec<_> = std::mem::take(&mut block.near)
-            .into_iter()
-            .map(|[i, j]| {
-                let (one, other) = (&panels[i], &panels[j]);
-                let there = kernel.over_points(&mirrored(&one.centroid, image), other);
-                let back = kernel.over_points(&mirrored(&other.centroid, image), one);
-                ([i - rows.start, j - columns.start], [i, j], [there, back])
-            })
+        let near_pairs = std::mem::take(&mut block.near);
+        let views: Vec<_> = near_pairs
+            .iter()
+            .flat_map(|[i, j]| [(i, j), (j, i)])
+            .map(|(from, to)| (mirrored(&panels[*from].centroid, image), &panels[*to]))
+            .collect();
+        let near: Vec<_> = near_pairs
+            .iter()
+            .zip(kernel.over_points_batch(&views).chunks_exact(2))
+            .map(|([i, j], parts)| ([i - rows.start, j - columns.start], [*i, *j], [parts[0], parts[1]]))
             .collect();
         for ((class, made), (fluxes, motions)) in
             classes.iter().zip(&mut made).zip(arrays.fluxes.iter().zip(motions.iter().copied()))

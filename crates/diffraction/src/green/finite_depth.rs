@@ -20,7 +20,7 @@
 
 use super::patch::{Patch, TERMS};
 use super::special::{complex_bessel, modified_bessel};
-use super::wave_part::WavePartTable;
+use super::wave_part::{WavePart, WavePartTable};
 use crate::dispersion::{evanescent_wave_number, wave_number};
 use crate::gauss::GaussRule;
 use nalgebra::Complex;
@@ -80,7 +80,11 @@ impl FrequencyPart {
     /// That of deep water: `nu W`.
     pub fn in_deep_water(table: &WavePartTable, nu: f64, distance: f64, heights: [f64; 2]) -> Self {
         let (x, y) = (nu * distance, -nu * (heights[0] + heights[1]));
-        let found = table.evaluate(x, y);
+        Self::from_wave_part(table.evaluate(x, y), nu, [x, y])
+    }
+
+    /// The same from the wave part at X and Y.
+    pub fn from_wave_part(found: WavePart, nu: f64, [x, y]: [f64; 2]) -> Self {
         let by_height = (found.value + 2.0 / (x * x + y * y).sqrt()) * (nu * nu);
         FrequencyPart { value: found.value * nu, by_distance: found.by_x * (nu * nu), by_heights: [by_height; 2] }
     }
