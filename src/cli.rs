@@ -8,6 +8,7 @@ use crate::report::files::JobFolder;
 use crate::report::live::{LivePage, LivePageFile};
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
+use crate::study::{self, StudyArgs, StudyExit};
 use crate::verification::{VerifyArgs, VerifyEnd, verify};
 use clap::{CommandFactory, Parser};
 use clap_complete::Shell;
@@ -132,9 +133,12 @@ pub enum Subcommand {
     Run(JobArgs),
     /// Check a script: what of it would act, stop a solve, be noted or refused; nothing is solved or written
     Check(CheckArgs),
-    /// Runs a table of cases.
-    #[command(hide = true)]
-    Study(Words),
+    /// Run a table of cases, a process each, into one table of results
+    #[command(after_help = study::HELP)]
+    Study(StudyArgs),
+    /// Runs a case of a study, which standard input describes.
+    #[command(hide = true, name = study::CASE_COMMAND)]
+    StudyCase,
     /// Compare results with published numbers, closed forms, listings and other programs
     #[command(after_help = VERIFY_HELP)]
     Verify(VerifyArgs),
@@ -171,6 +175,7 @@ impl Subcommand {
             Subcommand::Run(_) => "run",
             Subcommand::Check(_) => "check",
             Subcommand::Study(_) => "study",
+            Subcommand::StudyCase => study::CASE_COMMAND,
             Subcommand::Verify(_) => "verify",
             Subcommand::Open(_) => "open",
             Subcommand::Report(_) => "report",
@@ -192,6 +197,8 @@ enum UsageError {
     VerifyFirst,
     #[error("manual comes first, and takes a folder: windlass manual docs")]
     ManualFirst,
+    #[error("study comes first, and takes a table and a script: windlass study cases.csv model.cif --out DIR")]
+    StudyFirst,
     #[error("open comes first, and takes a folder of answers: windlass open ROOT.ans")]
     OpenFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
@@ -253,6 +260,15 @@ pub fn run(cli: Cli) -> u8 {
         Some(Subcommand::Manual(manual)) => return write_manual(&manual.dir),
         Some(Subcommand::Verify(args)) => return run_verification(args),
         Some(Subcommand::Open(open)) => return open_answers(open),
+        Some(Subcommand::Study(args)) => {
+            return match study::run(args, &mut stdout().lock(), &complain) {
+                StudyExit::Done => 0,
+                StudyExit::Failed => 1,
+                StudyExit::Usage => USAGE,
+                StudyExit::Interrupted => INTERRUPTED,
+            };
+        }
+        Some(Subcommand::StudyCase) => return study::run_one(stdin().lock(), stdout().lock()),
         _ => {}
     }
     match job(cli) {
@@ -304,6 +320,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "manual" => Err(UsageError::ManualFirst),
         "verify" => Err(UsageError::VerifyFirst),
         "open" => Err(UsageError::OpenFirst),
+        "study" => Err(UsageError::StudyFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }

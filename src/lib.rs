@@ -3,7 +3,7 @@
 //! From top to bottom: `cli` and `repl` (the two front doors), `session` (records one after the other), `commands` (a spec and a
 //! handler each), `report` (tables, files, plots, films). The engines are crates of their own, `windlass-*`, and the dependency
 //! graph of Cargo keeps their order; none of them knows of commands, files or printing. `verification` runs scripts and compares
-//! their results with numbers that windlass did not make.
+//! their results with numbers that windlass did not make; `study` runs tables of cases, a process each.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
@@ -14,4 +14,5 @@ pub mod manual;
 pub mod repl;
 pub mod report;
 pub mod session;
+pub mod study;
 pub mod verification;

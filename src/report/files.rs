@@ -251,11 +251,13 @@ pub struct JobFolder {
     read: Mutex<ReadOutside>,
 }
 
-/// Files read outside of the folder of the script and that of the job.
+/// Files that were read, and which of them outside of the folder of the script and that of the job.
 #[derive(Default)]
 struct ReadOutside {
     known: HashSet<PathBuf>,
     unsaid: Vec<PathBuf>,
+    /// All files read, in the order they were.
+    all: Vec<PathBuf>,
 }
 
 /// Which of two names an error is about.
@@ -570,6 +572,11 @@ impl JobFolder {
     /// Takes note of a file that is read; one outside of the folders of the script and the job is to be reported in the log.
     pub fn note_reading(&self, path: &Path) {
         let Some(path) = real(path) else { return };
+        if let Ok(mut read) = self.read.lock()
+            && !read.all.contains(&path)
+        {
+            read.all.push(path.clone());
+        }
         let inside = |folder: &Path| real(folder).is_some_and(|folder| path.starts_with(folder));
         if !inside(folder_of(&self.root))
             && !inside(&self.folder)
@@ -578,6 +585,14 @@ impl JobFolder {
         {
             read.unsaid.push(path);
         }
+    }
+
+    /// All files read but those in the folder of the job, in the order they were; each comes once.
+    pub fn files_read(&self) -> Vec<PathBuf> {
+        let own = real(&self.folder);
+        let is_own = |path: &PathBuf| own.as_ref().is_some_and(|own| path.starts_with(own));
+        let read = self.read.lock().map(|read| read.all.clone()).unwrap_or_default();
+        read.into_iter().filter(|path| !is_own(path)).collect()
     }
 
     /// Files read outside of the folders of the script and the job since this was last asked; each comes once.

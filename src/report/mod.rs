@@ -19,6 +19,6 @@ pub mod plot;
 pub mod readback;
 pub mod run_log;
 pub mod statistic;
-mod stored;
+pub mod stored;
 pub mod taken_state;
 pub mod xlsx;

@@ -3,7 +3,7 @@
 //! Columns have the heads of a CSV file; title, source, units and notes stand in the metadata of the file.
 
 use super::embedded::string;
-use super::stored::{ColumnValues, SOURCE, StoreError, stored_columns};
+use super::stored::{ColumnValues, SOURCE, StoreError, StoredColumn, stored_columns};
 use ::parquet::basic::{LogicalType, Repetition, Type as Physical};
 use ::parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use ::parquet::errors::ParquetError;
@@ -39,6 +39,19 @@ impl From<ParquetError> for Failed {
 
 fn encode_table(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let columns = stored_columns(table, units).map_err(Failed::Store)?;
+    let notes = table.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n");
+    Ok(encode_columns(&table.title, &notes, columns)?)
+}
+
+/// The bytes of a file of columns of one length.
+///
+/// # Errors
+/// What the writer refuses.
+pub fn column_bytes(title: &str, notes: &str, columns: Vec<StoredColumn>) -> Result<Vec<u8>, StoreError> {
+    encode_columns(title, notes, columns).map_err(|error| StoreError::Library(error.to_string()))
+}
+
+fn encode_columns(title: &str, notes: &str, columns: Vec<StoredColumn>) -> Result<Vec<u8>, ParquetError> {
     let mut fields = Vec::new();
     for column in &columns {
         let physical = match column.values {
@@ -56,10 +69,10 @@ fn encode_table(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     let schema = Arc::new(Type::group_type_builder("windlass").with_fields(fields).build()?);
     let units: Vec<String> = columns.iter().map(|c| format!("{}:{}", string(&c.head), string(&c.unit))).collect();
     let facts = [
-        ("title", table.title.clone()),
+        ("title", title.to_owned()),
         ("source", SOURCE.to_string()),
         ("units", format!("{{{}}}", units.join(","))),
-        ("notes", table.notes.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")),
+        ("notes", notes.to_owned()),
     ];
     let facts = facts.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect();
     let properties = Arc::new(WriterProperties::builder().set_key_value_metadata(Some(facts)).build());

@@ -29,6 +29,22 @@ pub enum ColumnValues {
     Texts(Vec<Option<String>>),
 }
 
+impl ColumnValues {
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        match self {
+            ColumnValues::Numbers(list) => list.len(),
+            ColumnValues::Wholes(list) => list.len(),
+            ColumnValues::Texts(list) => list.len(),
+        }
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// A column with a name no other has.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredColumn {

@@ -29,6 +29,7 @@ mod program {
     mod results;
     mod script_check;
     mod stored_run;
+    mod study;
     mod table_vary;
     mod terminal;
     mod undo;

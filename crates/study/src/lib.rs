@@ -18,3 +18,8 @@
 #![deny(missing_docs)]
 
 pub mod kept;
+pub mod record;
+pub mod runner;
+pub mod seeds;
+pub mod store;
+pub mod table;

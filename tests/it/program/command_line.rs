@@ -206,7 +206,7 @@ fn missing_result_exits_with_1_and_a_message() {
 #[test]
 fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
-    for word in ["study", "report", "fmt", "lsp"] {
+    for word in ["report", "fmt", "lsp"] {
         let (code, out, err) = run_in(folder.path(), &[word, "cases.csv", "--jobs", "3"]);
         assert_eq!((code, out.as_str()), (Some(2), ""));
         assert_eq!(err, format!("windlass: {word} is not in this version\n"));
@@ -230,11 +230,11 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     );
     let (code, _, err) = run_in(folder.path(), &["--batch", "verify"]);
     assert_eq!((code, err.as_str()), (Some(2), "windlass: verify comes first: windlass verify --list\n"));
-    std::fs::write(folder.path().join("study.cif"), "&TYPE mine\n&FINISH\n").unwrap();
-    let (code, _, err) = run_in(folder.path(), &["study"]);
+    std::fs::write(folder.path().join("report.cif"), "&TYPE mine\n&FINISH\n").unwrap();
+    let (code, _, err) = run_in(folder.path(), &["report"]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("the script study.cif has its name: write `./study` or `study.cif`"), "{err}");
-    for job in [&["./study"][..], &["study.cif"], &["run", "study"], &["run", "study.cif"]] {
+    assert!(err.contains("the script report.cif has its name: write `./report` or `report.cif`"), "{err}");
+    for job in [&["./report"][..], &["report.cif"], &["run", "report"], &["run", "report.cif"]] {
         assert_eq!(run_in(folder.path(), job), (Some(0), "mine\n".into(), String::new()), "{job:?}");
     }
     for words in [&["run"][..], &["--batch", "run"]] {
@@ -242,12 +242,13 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
         assert_eq!(code, Some(2));
         assert!(err.contains("run needs a JOB"), "{err}");
     }
-    assert_eq!(run_in(folder.path(), &["--batch", "run", "study"]).1, "mine\n");
-    assert!(run_in(folder.path(), &["-i", "study"]).2.contains("study is not in this version"));
-    std::fs::create_dir(folder.path().join("study")).unwrap();
-    let (_, _, err) = run_in(folder.path(), &["study"]);
-    assert!(err.contains("write `study.cif` to run it") && !err.contains("./study"), "{err}");
-    assert_eq!(run_in(folder.path(), &["./study"]).1, "mine\n");
+    assert_eq!(run_in(folder.path(), &["--batch", "run", "report"]).1, "mine\n");
+    assert!(run_in(folder.path(), &["-i", "report"]).2.contains("report is not in this version"));
+    assert!(run_in(folder.path(), &["-i", "study"]).2.contains("study comes first, and takes a table and a script"));
+    std::fs::create_dir(folder.path().join("report")).unwrap();
+    let (_, _, err) = run_in(folder.path(), &["report"]);
+    assert!(err.contains("write `report.cif` to run it") && !err.contains("./report"), "{err}");
+    assert_eq!(run_in(folder.path(), &["./report"]).1, "mine\n");
     for (word, meant) in [("RUN", "run"), ("chek", "check")] {
         let (code, _, err) = run_in(folder.path(), &[word, "study.cif"]);
         assert_eq!(code, Some(2));

@@ -1,0 +1,95 @@
+//! What is written of a finished case: a line of JSON behind its check sum.
+
+use crate::kept::{KeptResult, LineRow};
+use serde::{Deserialize, Serialize};
+
+/// How a case ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CaseStatus {
+    /// Without an error.
+    Done,
+    /// A tension was beyond its break.
+    Overloaded,
+    /// An error, or no answer at all.
+    Failed,
+}
+
+impl CaseStatus {
+    /// As a table has it.
+    pub fn text(self) -> &'static str {
+        match self {
+            CaseStatus::Done => "done",
+            CaseStatus::Overloaded => "overloaded",
+            CaseStatus::Failed => "failed",
+        }
+    }
+}
+
+/// A file that a case has read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FileRead {
+    /// Its path.
+    pub path: String,
+    /// Its size (bytes).
+    pub size: u64,
+    /// SHA-256 of it, in hexadecimal digits.
+    pub hash: String,
+}
+
+/// A finished case.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseRecord {
+    /// Its name.
+    pub case: String,
+    /// Columns and values of its row.
+    pub values: Vec<(String, String)>,
+    /// Its seed.
+    pub seed: u64,
+    /// How it ended.
+    pub status: CaseStatus,
+    /// Why it failed; empty of others.
+    pub reason: String,
+    /// Seconds of the clock that it took.
+    pub seconds: f64,
+    /// Errors and warnings.
+    pub messages: Vec<String>,
+    /// Named results.
+    pub results: Vec<KeptResult>,
+    /// Rows of lines.
+    pub lines: Vec<LineRow>,
+    /// What it has read.
+    pub read: Vec<FileRead>,
+    /// Version of the program.
+    pub version: String,
+    /// Which start of the study it is of: the later counts.
+    pub start: u64,
+}
+
+impl CaseRecord {
+    /// The line of the file, its end included.
+    ///
+    /// # Errors
+    /// What JSON cannot hold: none of the values that this crate makes.
+    pub fn encode(&self) -> Result<Vec<u8>, serde_json::Error> {
+        let text = serde_json::to_string(self)?;
+        Ok(format!("{:08x} {text}\n", crc32fast::hash(text.as_bytes())).into_bytes())
+    }
+}
+
+/// The records of a file, and how many of its bytes they take; what is behind them is half a record, as a kill leaves it.
+pub fn decode(bytes: &[u8]) -> (Vec<CaseRecord>, usize) {
+    let (mut records, mut valid) = (Vec::new(), 0);
+    while let Some(length) = bytes.get(valid..).and_then(|rest| rest.iter().position(|byte| *byte == b'\n')) {
+        let line = bytes.get(valid..valid + length).and_then(|line| std::str::from_utf8(line).ok());
+        let record = line.and_then(|line| {
+            let (sum, text) = line.split_once(' ')?;
+            let fits = u32::from_str_radix(sum, 16).ok()? == crc32fast::hash(text.as_bytes());
+            if fits { serde_json::from_str(text).ok() } else { None }
+        });
+        let Some(record) = record else { break };
+        records.push(record);
+        valid += length + 1;
+    }
+    (records, valid)
+}

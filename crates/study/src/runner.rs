@@ -1,0 +1,319 @@
+//! Runs the cases of a study side by side, keeps their records, and goes on where an earlier start ended.
+
+use crate::record::{CaseRecord, CaseStatus, FileRead};
+use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, results_file};
+use crate::table::{Case, CaseTable};
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+/// Longest time that a record waits for the disk.
+const SYNC_AFTER: Duration = Duration::from_secs(1);
+
+/// Which cases keep the folder of their answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// None.
+    Nothing,
+    /// Those that failed.
+    Failed,
+    /// Those that failed, and those that govern: the largest value of a result, or the largest tension of a line.
+    #[default]
+    Governing,
+    /// All.
+    Everything,
+}
+
+/// A study to run.
+#[derive(Clone, Debug)]
+pub struct StudyPlan {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The script.
+    pub model: String,
+    /// Name of the table.
+    pub table_name: String,
+    /// The table.
+    pub table: CaseTable,
+    /// The seed of the study.
+    pub seed: u64,
+    /// Version of the program.
+    pub version: String,
+    /// Cases at a time.
+    pub jobs: usize,
+    /// What is kept.
+    pub keep: Keep,
+    /// Whether failed cases of an earlier start are run again.
+    pub retry_failed: bool,
+}
+
+/// A way to run a case.
+pub trait RunCase: Sync {
+    /// Runs a case with its answers in a folder, which is there and empty; `None` where it was interrupted. The start of the record
+    /// is set by the study.
+    fn run(&self, case: &Case, columns: &[String], folder: &Path) -> Option<CaseRecord>;
+    /// Whether a file is still as a case has read it.
+    fn is_unchanged(&self, read: &FileRead) -> bool;
+}
+
+/// How far a study is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// Cases finished in this start.
+    pub finished: usize,
+    /// Of these, those that failed.
+    pub failed: usize,
+    /// Cases to run in this start.
+    pub total: usize,
+}
+
+/// What came of a start.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct StudyEnd {
+    /// Cases that were finished before.
+    pub kept: usize,
+    /// Cases run again, with the reason.
+    pub again: Vec<(String, String)>,
+    /// How far it came.
+    pub progress: Progress,
+}
+
+/// The largest values so far, and the cases they are of.
+#[derive(Default)]
+struct Governing {
+    best: HashMap<String, (f64, String)>,
+    /// Of how many values a case is the largest.
+    held: HashMap<String, usize>,
+}
+
+impl Governing {
+    /// Takes up a record: whether it governs, and which cases do so no more.
+    fn offer(&mut self, record: &CaseRecord) -> (bool, Vec<String>) {
+        let results = record.results.iter().map(|r| (format!("result {}", r.name.to_ascii_uppercase()), r.value));
+        let lines = record.lines.iter().filter_map(|l| Some((format!("line {}", l.line), l.max_tension?)));
+        let mut gone = Vec::new();
+        for (key, value) in results.chain(lines) {
+            let best = self.best.get(&key);
+            // of equal values the case whose name comes first, whatever the order they end in
+            if best.is_some_and(|(old, case)| value < *old || (value == *old && record.case >= *case)) {
+                continue;
+            }
+            if let Some((_, before)) = self.best.insert(key, (value, record.case.clone())) {
+                let left = self.held.entry(before.clone()).or_default();
+                *left = left.saturating_sub(1);
+                if *left == 0 {
+                    gone.push(before);
+                }
+            }
+            *self.held.entry(record.case.clone()).or_default() += 1;
+        }
+        gone.retain(|case| self.held.get(case).copied().unwrap_or(0) == 0);
+        gone.dedup();
+        (self.held.get(&record.case).copied().unwrap_or(0) > 0, gone)
+    }
+}
+
+/// What the workers share.
+struct Shared<'a> {
+    plan: &'a StudyPlan,
+    files: &'a dyn Files,
+    runner: &'a dyn RunCase,
+    pending: Vec<&'a Case>,
+    next: AtomicUsize,
+    stop: &'a AtomicBool,
+    start: u64,
+    state: Mutex<(Governing, Progress, Option<StudyError>)>,
+    told: &'a (dyn Fn(Progress) + Sync),
+}
+
+/// Runs what is left of a study.
+///
+/// # Errors
+/// A folder of another study, and files that cannot be written; the cases that are done stay done.
+pub fn run_study(
+    plan: &StudyPlan,
+    files: &dyn Files,
+    runner: &dyn RunCase,
+    stop: &AtomicBool,
+    told: &(dyn Fn(Progress) + Sync),
+) -> Result<StudyEnd, StudyError> {
+    let folder = plan.folder.as_path();
+    files.make_folder(folder).map_err(StudyError::of(folder))?;
+    let info_path = folder.join(INFO);
+    let earlier = if info_path.exists() {
+        Some(Study::open_with(folder, &mut |path, valid| files.truncate(path, valid))?)
+    } else {
+        let is_empty = std::fs::read_dir(folder).map_err(StudyError::of(folder))?.next().is_none();
+        if !is_empty {
+            let message = "it holds files and is of no study: name an empty folder or a new one".to_owned();
+            return Err(StudyError::Folder { path: folder.to_path_buf(), message });
+        }
+        None
+    };
+    if let Some(known) = earlier.as_ref().filter(|study| study.info.seed != plan.seed) {
+        let message = format!("its study has the seed {}, not {}: name another folder", known.info.seed, plan.seed);
+        return Err(StudyError::Folder { path: folder.to_path_buf(), message });
+    }
+    let start = earlier.as_ref().map_or(1, |study| study.info.start + 1);
+    let info = StudyInfo {
+        model: plan.model.clone(),
+        table: plan.table_name.clone(),
+        seed: plan.seed,
+        version: plan.version.clone(),
+        start,
+        cases: plan.table.cases.iter().map(|case| case.name.clone()).collect(),
+    };
+    let text = serde_json::to_vec_pretty(&info).map_err(|error| StudyError::of(&info_path)(error.into()))?;
+    files.write(&info_path, &text).map_err(StudyError::of(&info_path))?;
+
+    let records: HashMap<&str, &CaseRecord> =
+        earlier.iter().flat_map(|study| &study.records).map(|record| (record.case.as_str(), record)).collect();
+    let (mut end, mut governing, mut pending) = (StudyEnd::default(), Governing::default(), Vec::new());
+    for case in &plan.table.cases {
+        let Some(record) = records.get(case.name.as_str()) else {
+            pending.push(case);
+            continue;
+        };
+        match reason_to_run_again(plan, case, record, runner) {
+            None => {
+                end.kept += 1;
+                governing.offer(record);
+            }
+            Some(reason) => {
+                end.again.push((case.name.clone(), reason));
+                pending.push(case);
+            }
+        }
+    }
+    let kept_cases = folder.join(KEPT_CASES);
+    files.make_folder(&kept_cases).map_err(StudyError::of(&kept_cases))?;
+    let jobs = plan.jobs.clamp(1, pending.len().max(1));
+    let progress = Progress { total: pending.len(), ..Progress::default() };
+    let state = Mutex::new((governing, progress, None));
+    let shared = Shared { plan, files, runner, pending, next: AtomicUsize::new(0), stop, start, state, told };
+    std::thread::scope(|scope| {
+        for worker in 0..jobs {
+            let shared = &shared;
+            scope.spawn(move || {
+                if let Err(error) = work(shared, worker) {
+                    shared.stop.store(true, Ordering::Relaxed);
+                    if let Ok(mut state) = shared.state.lock() {
+                        state.2.get_or_insert(error);
+                    }
+                }
+            });
+        }
+    });
+    let (_, progress, error) = shared.state.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
+    end.progress = progress;
+    if let Some(error) = error {
+        return Err(error);
+    }
+    drop_stray_folders(plan, files, &kept_cases)?;
+    Ok(end)
+}
+
+/// Drops kept folders of cases that no longer keep theirs: of another table, and of what was stopped between a folder and its record.
+fn drop_stray_folders(plan: &StudyPlan, files: &dyn Files, kept_cases: &Path) -> Result<(), StudyError> {
+    let study = Study::open(&plan.folder)?;
+    let mut governing = Governing::default();
+    for record in &study.records {
+        governing.offer(record);
+    }
+    let stays = |name: &str| {
+        let record = study.records.iter().find(|record| record.case == name);
+        record.is_some_and(|record| keeps(plan.keep, record.status, governing.held.get(name).copied().unwrap_or(0) > 0))
+    };
+    for entry in std::fs::read_dir(kept_cases).map_err(StudyError::of(kept_cases))? {
+        let entry = entry.map_err(StudyError::of(kept_cases))?;
+        if !stays(&entry.file_name().to_string_lossy()) {
+            let path = entry.path();
+            files.remove_folder(&path).map_err(StudyError::of(&path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether a case keeps the folder of its answers.
+fn keeps(keep: Keep, status: CaseStatus, governs: bool) -> bool {
+    let failed = status == CaseStatus::Failed;
+    match keep {
+        Keep::Nothing => false,
+        Keep::Failed => failed,
+        Keep::Governing => failed || governs,
+        Keep::Everything => true,
+    }
+}
+
+/// Why a finished case has to be run again.
+fn reason_to_run_again(plan: &StudyPlan, case: &Case, record: &CaseRecord, runner: &dyn RunCase) -> Option<String> {
+    let values = plan.table.columns.iter().cloned().zip(case.values.iter().cloned());
+    if record.status == CaseStatus::Failed && plan.retry_failed {
+        return Some("it failed".into());
+    }
+    if !values.eq(record.values.iter().cloned()) {
+        return Some("its row has changed".into());
+    }
+    if record.seed != case.seed {
+        return Some("its seed has changed".into());
+    }
+    if record.version != plan.version {
+        return Some(format!("it is of version {}", record.version));
+    }
+    let changed = record.read.iter().find(|read| !runner.is_unchanged(read))?;
+    Some(format!("{} has changed", changed.path))
+}
+
+/// One of the workers.
+fn work(shared: &Shared, worker: usize) -> Result<(), StudyError> {
+    let Shared { plan, files, .. } = shared;
+    let results = results_file(&plan.folder, worker);
+    let running = plan.folder.join(format!(".running-{worker}"));
+    let mut unsynced: Option<Instant> = None;
+    while !shared.stop.load(Ordering::Relaxed) {
+        let Some(case) = shared.pending.get(shared.next.fetch_add(1, Ordering::Relaxed)) else { break };
+        files.remove_folder(&running).map_err(StudyError::of(&running))?;
+        files.make_folder(&running).map_err(StudyError::of(&running))?;
+        let Some(mut record) = shared.runner.run(case, &plan.table.columns, &running) else { break };
+        record.start = shared.start;
+        let line = record.encode().map_err(|error| StudyError::of(&results)(error.into()))?;
+        // the folder first: a record says that all of its case is there
+        keep_folder(shared, &record, &running)?;
+        files.append(&results, &line).map_err(StudyError::of(&results))?;
+        let since = *unsynced.get_or_insert_with(Instant::now);
+        if since.elapsed() >= SYNC_AFTER {
+            files.sync(&results).map_err(StudyError::of(&results))?;
+            unsynced = None;
+        }
+        if let Ok(mut state) = shared.state.lock() {
+            state.1.finished += 1;
+            state.1.failed += usize::from(record.status == CaseStatus::Failed);
+            (shared.told)(state.1);
+        }
+    }
+    if unsynced.is_some() {
+        files.sync(&results).map_err(StudyError::of(&results))?;
+    }
+    files.remove_folder(&running).map_err(StudyError::of(&running))
+}
+
+/// Keeps the folder of a case, or not, and drops those of cases that govern no more.
+fn keep_folder(shared: &Shared, record: &CaseRecord, running: &Path) -> Result<(), StudyError> {
+    let Shared { plan, files, .. } = shared;
+    let place = |case: &str| plan.folder.join(KEPT_CASES).join(case);
+    let mut state = shared.state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let (governs, gone) = state.0.offer(record);
+    if keeps(plan.keep, record.status, governs) {
+        let to = place(&record.case);
+        files.move_folder(running, &to).map_err(StudyError::of(&to))?;
+    }
+    if plan.keep == Keep::Governing {
+        for case in gone {
+            let path = place(&case);
+            files.remove_folder(&path).map_err(StudyError::of(&path))?;
+        }
+    }
+    Ok(())
+}

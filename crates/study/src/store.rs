@@ -1,0 +1,214 @@
+//! The folder of a study: what it is of, and the append-only files of its finished cases.
+
+use crate::record::{CaseRecord, CaseStatus, decode};
+use indexmap::IndexMap;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// The file that says what a study is of.
+pub const INFO: &str = "study.json";
+/// The folder of the cases whose answers are kept.
+pub const KEPT_CASES: &str = "cases";
+
+/// Why a study cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// The system refuses.
+    #[error("{}: {source}", .path.display())]
+    System {
+        /// The file or folder.
+        path: PathBuf,
+        /// What it says.
+        source: io::Error,
+    },
+    /// A folder of something else.
+    #[error("{}: {message}", .path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What is wrong with it.
+        message: String,
+    },
+}
+
+impl StudyError {
+    /// An error of a file.
+    pub fn of(path: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
+        move |source| StudyError::System { path: path.to_path_buf(), source }
+    }
+}
+
+/// What a study does to files; another one stands in its place where a test stops it half way.
+pub trait Files: Sync {
+    /// Makes a folder and those above it.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn make_folder(&self, path: &Path) -> io::Result<()>;
+    /// Adds bytes behind a file, which it makes where there is none.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn append(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// Sees a file through to the disk.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn sync(&self, path: &Path) -> io::Result<()>;
+    /// Cuts a file off behind so many bytes.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn truncate(&self, path: &Path, length: u64) -> io::Result<()>;
+    /// Writes a file whole or not at all.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// Puts a folder in the place of another, which is removed.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()>;
+    /// Removes a folder, where there is one.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn remove_folder(&self, path: &Path) -> io::Result<()>;
+}
+
+/// The files of the system.
+pub struct SystemFiles;
+
+impl Files for SystemFiles {
+    fn make_folder(&self, path: &Path) -> io::Result<()> {
+        fs::create_dir_all(path)
+    }
+
+    fn append(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        OpenOptions::new().create(true).append(true).open(path)?.write_all(bytes)
+    }
+
+    fn sync(&self, path: &Path) -> io::Result<()> {
+        File::open(path)?.sync_data()
+    }
+
+    fn truncate(&self, path: &Path, length: u64) -> io::Result<()> {
+        OpenOptions::new().write(true).open(path)?.set_len(length)
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        let mut fresh = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+        fresh.write_all(bytes)?;
+        fresh.as_file().sync_data()?;
+        fresh.persist(path).map(drop).map_err(|error| error.error)
+    }
+
+    fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.remove_folder(to)?;
+        fs::rename(from, to)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        match fs::remove_dir_all(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What a study is of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct StudyInfo {
+    /// The script, from where the study was begun.
+    pub model: String,
+    /// The table, likewise.
+    pub table: String,
+    /// The seed that those of the cases are made from.
+    pub seed: u64,
+    /// Version of the program.
+    pub version: String,
+    /// How often the study was begun or gone on with.
+    pub start: u64,
+    /// Names of the cases, in the order of the table.
+    pub cases: Vec<String>,
+}
+
+/// The file of finished cases of a worker.
+pub fn results_file(folder: &Path, worker: usize) -> PathBuf {
+    folder.join(format!("results-{worker}.jsonl"))
+}
+
+/// The files of finished cases, by name.
+fn results_files(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut files: Vec<PathBuf> = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+        if name.starts_with("results-") && name.ends_with(".jsonl") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    Ok(files)
+}
+
+/// A study as it stands in its folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Study {
+    /// What it is of.
+    pub info: StudyInfo,
+    /// The last record of each finished case, in the order of the table.
+    pub records: Vec<CaseRecord>,
+}
+
+impl Study {
+    /// Reads a study. Half a record at the end of a file, as a kill leaves it, is passed over.
+    ///
+    /// # Errors
+    /// A folder without a study, and what the system refuses.
+    pub fn open(folder: &Path) -> Result<Self, StudyError> {
+        let mut study = Self::open_with(folder, &mut |_, _| Ok(()))?;
+        let Study { info, records } = &mut study;
+        let named: std::collections::HashSet<&str> = info.cases.iter().map(String::as_str).collect();
+        records.retain(|record| named.contains(record.case.as_str()));
+        Ok(study)
+    }
+
+    /// The same with the cases of earlier tables, which come last; `torn` gets each file that ends in half a record, and the length of
+    /// its whole ones.
+    pub(crate) fn open_with(
+        folder: &Path,
+        torn: &mut dyn FnMut(&Path, u64) -> io::Result<()>,
+    ) -> Result<Self, StudyError> {
+        let path = folder.join(INFO);
+        let text = fs::read_to_string(&path).map_err(StudyError::of(&path))?;
+        let info: StudyInfo = serde_json::from_str(&text).map_err(|error| StudyError::Folder {
+            path: path.clone(),
+            message: format!("it is of no study: {error}"),
+        })?;
+        let mut latest: IndexMap<String, Option<CaseRecord>> =
+            info.cases.iter().map(|case| (case.clone(), None)).collect();
+        for path in results_files(folder).map_err(StudyError::of(folder))? {
+            let bytes = fs::read(&path).map_err(StudyError::of(&path))?;
+            let (records, valid) = decode(&bytes);
+            if valid < bytes.len() {
+                torn(&path, valid as u64).map_err(StudyError::of(&path))?;
+            }
+            for record in records {
+                let known = latest.entry(record.case.clone()).or_default();
+                if known.as_ref().is_none_or(|known| known.start <= record.start) {
+                    *known = Some(record);
+                }
+            }
+        }
+        Ok(Study { info, records: latest.into_values().flatten().collect() })
+    }
+
+    /// How many cases ended so.
+    pub fn count(&self, status: CaseStatus) -> usize {
+        self.records.iter().filter(|record| record.status == status).count()
+    }
+}

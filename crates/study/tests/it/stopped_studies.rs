@@ -1,0 +1,200 @@
+//! A study of six cases stopped after the n-th operation on files, for every n, and gone on with: its records, its kept folders and its
+//! rows are those of one that was never stopped.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use windlass_study::kept::KeptResult;
+use windlass_study::record::{CaseRecord, CaseStatus, FileRead, decode};
+use windlass_study::runner::{Keep, RunCase, StudyPlan, run_study};
+use windlass_study::store::{Files, Study, SystemFiles};
+use windlass_study::table::{Case, CaseTable};
+
+/// Files that fail for good from an operation on; the one it falls in writes half of what it was given.
+struct Stopping {
+    left: AtomicUsize,
+}
+
+impl Stopping {
+    fn ask(&self) -> io::Result<()> {
+        let left = self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, |n| n.checked_sub(1));
+        left.map(drop).map_err(|_| io::Error::other("stopped"))
+    }
+}
+
+impl Files for Stopping {
+    fn make_folder(&self, path: &Path) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.make_folder(path)
+    }
+
+    fn append(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        if let Err(stopped) = self.ask() {
+            SystemFiles.append(path, &bytes[..bytes.len() / 2])?;
+            return Err(stopped);
+        }
+        SystemFiles.append(path, bytes)
+    }
+
+    fn sync(&self, path: &Path) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.sync(path)
+    }
+
+    fn truncate(&self, path: &Path, length: u64) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.truncate(path, length)
+    }
+
+    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.write(path, bytes)
+    }
+
+    fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.move_folder(from, to)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.remove_folder(path)
+    }
+}
+
+/// Cases whose result is the square of X, of which that of X = 4 fails.
+struct Squares;
+
+impl RunCase for Squares {
+    fn run(&self, case: &Case, columns: &[String], folder: &Path) -> Option<CaseRecord> {
+        let x: f64 = case.values[0].parse().unwrap();
+        fs::write(folder.join("answer"), &case.name).unwrap();
+        let failed = x == 4.0;
+        Some(CaseRecord {
+            case: case.name.clone(),
+            values: columns.iter().cloned().zip(case.values.iter().cloned()).collect(),
+            seed: case.seed,
+            status: if failed { CaseStatus::Failed } else { CaseStatus::Done },
+            reason: if failed { "four".into() } else { String::new() },
+            seconds: 0.0,
+            messages: Vec::new(),
+            results: if failed { Vec::new() } else { vec![KeptResult::new("SQUARE", x * x, "").unwrap()] },
+            lines: Vec::new(),
+            read: vec![FileRead { path: "model".into(), size: 1, hash: "h".into() }],
+            version: "1".into(),
+            start: 0,
+        })
+    }
+
+    fn is_unchanged(&self, read: &FileRead) -> bool {
+        read.hash == "h"
+    }
+}
+
+fn plan(folder: &Path) -> StudyPlan {
+    // the largest square comes third, so that folders are kept and given up
+    let table = "case,X\nA,1\nB,2\nC,9\nD,4\nE,3\nF,5\n";
+    StudyPlan {
+        folder: folder.join("S"),
+        model: "model".into(),
+        table_name: "cases.csv".into(),
+        table: CaseTable::parse("cases.csv", table, 1).unwrap(),
+        seed: 1,
+        version: "1".into(),
+        jobs: 1,
+        keep: Keep::Governing,
+        retry_failed: false,
+    }
+}
+
+/// Case, status and square of each record, in the order of the table.
+fn rows(study: &Study) -> Vec<(String, CaseStatus, Option<f64>)> {
+    study.records.iter().map(|r| (r.case.clone(), r.status, r.results.first().map(|s| s.value))).collect()
+}
+
+fn kept(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder.join("S/cases")).unwrap();
+    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
+}
+
+#[test]
+fn study_stopped_after_any_operation_goes_on_to_the_same_end() {
+    let by_hand: Vec<(String, CaseStatus, Option<f64>)> = [
+        ("A", CaseStatus::Done, Some(1.0)),
+        ("B", CaseStatus::Done, Some(4.0)),
+        ("C", CaseStatus::Done, Some(81.0)),
+        ("D", CaseStatus::Failed, None),
+        ("E", CaseStatus::Done, Some(9.0)),
+        ("F", CaseStatus::Done, Some(25.0)),
+    ]
+    .map(|(name, status, square)| (name.to_owned(), status, square))
+    .into();
+    let (mut stops, mut finished) = (0, 0);
+    for n in 0.. {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = plan(folder.path());
+        let files = Stopping { left: AtomicUsize::new(n) };
+        let first = run_study(&plan, &files, &Squares, &AtomicBool::new(false), &|_| ());
+        let is_whole = first.is_ok();
+        if let Ok(end) = first {
+            assert_eq!((end.kept, end.progress.finished, end.progress.failed), (0, 6, 1));
+            finished += 1;
+        } else {
+            stops += 1;
+            if plan.folder.join("study.json").exists() {
+                // what is there before it goes on is whole records
+                let before = Study::open(&plan.folder).unwrap();
+                assert!(rows(&before).iter().all(|row| by_hand.contains(row)), "{n}");
+            }
+            run_study(&plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ()).unwrap();
+        }
+        let study = Study::open(&plan.folder).unwrap();
+        assert_eq!(rows(&study), by_hand, "stopped after {n} operations");
+        assert_eq!(
+            kept(folder.path()),
+            BTreeSet::from(["C".to_owned(), "D".to_owned()]),
+            "stopped after {n} operations"
+        );
+        let torn = fs::read(plan.folder.join("results-0.jsonl")).unwrap();
+        assert_eq!(decode(&torn).1, torn.len(), "half a record is left after {n} operations");
+        if is_whole {
+            break;
+        }
+    }
+    // three before the cases, three or four for each of them, and what is given up and seen to the disk
+    assert!((25..40).contains(&stops) && finished == 1, "{stops} stops");
+}
+
+#[test]
+fn what_has_changed_is_run_again_and_said_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let first = plan(folder.path());
+    let go = |plan: &StudyPlan| run_study(plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ());
+    go(&first).unwrap();
+    let table = "case,X\nG,6\nF,5\nA,7\n";
+    let second = StudyPlan { table: CaseTable::parse("cases.csv", table, 1).unwrap(), ..first.clone() };
+    let end = go(&second).unwrap();
+    assert_eq!((end.kept, end.progress.finished), (1, 2));
+    assert_eq!(end.again, [("A".to_owned(), "its row has changed".to_owned())]);
+    let study = Study::open(&second.folder).unwrap();
+    let squares: Vec<_> = rows(&study).into_iter().take(3).map(|(name, _, square)| (name, square)).collect();
+    assert_eq!(squares, [("G".to_owned(), Some(36.0)), ("F".to_owned(), Some(25.0)), ("A".to_owned(), Some(49.0))]);
+    let newer = StudyPlan { version: "2".into(), ..second.clone() };
+    assert!(go(&newer).unwrap().again.iter().all(|(_, reason)| reason == "it is of version 1"));
+    let failed = StudyPlan { retry_failed: true, ..first.clone() };
+    assert_eq!(go(&failed).unwrap().again.iter().filter(|(case, _)| case == "D").count(), 1);
+    let other = StudyPlan { seed: 2, ..first };
+    assert!(go(&other).unwrap_err().to_string().ends_with("its study has the seed 1, not 2: name another folder"));
+}
+
+#[test]
+fn folder_of_something_else_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan(folder.path());
+    fs::create_dir(&plan.folder).unwrap();
+    fs::write(plan.folder.join("letter"), "mine").unwrap();
+    let error = run_study(&plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ()).unwrap_err();
+    assert!(error.to_string().contains("it holds files and is of no study"), "{error}");
+}

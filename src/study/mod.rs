@@ -1,0 +1,292 @@
+//! `windlass study`: runs a table of cases, a process each, and writes one table of what came of them.
+
+mod case_process;
+mod tables;
+
+pub use case_process::{CASE_COMMAND, run_one};
+
+use self::case_process::Processes;
+use crate::report::files::read_regular;
+use clap::ValueEnum;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::{IsTerminal, Write, stderr};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use windlass_base::printable::printable;
+use windlass_study::record::CaseStatus;
+use windlass_study::runner::{Keep, Progress, RunCase, StudyPlan, run_study};
+use windlass_study::store::{Files, Study, StudyError, SystemFiles};
+use windlass_study::table::{Case, CaseTable};
+
+/// Longest table (bytes).
+const LARGEST_TABLE: u64 = 1 << 30;
+/// Failed cases that are named at the end.
+const MOST_NAMED: usize = 10;
+
+/// What stands at the end of `windlass study --help`.
+pub const HELP: &str = "\
+Each row of TABLE is a case: its columns become variables of MODEL (%HS%, %HEADING%), the column case names it, and %SEED% is made
+of --seed, the name and the column member. TABLE is a CSV file, or a TOML file of lists that are multiplied. MODEL keeps results by
+&RESULT, by -RESULT of STATISTIC and EXTREMES, and by CODE_CHECK; they become columns of DIR/results.csv and results.parquet, and
+rows of lines.csv. The same command again goes on where the study was stopped, and runs again what has changed.
+
+    windlass study cases.csv model.cif --out DIR
+    windlass study rerun DIR CASE            makes the answers of a case again, in DIR/rerun/CASE
+
+Exit codes:
+  0    all cases are done
+  1    a case has failed, or a file cannot be read or written
+  2    wrong use of the command line, or a table that is wrong: no case is run
+  130  interrupted; the cases that are done stay done";
+
+/// A study, and how it is run.
+#[derive(clap::Args, Debug, Default)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true, disable_help_subcommand = true)]
+pub struct StudyArgs {
+    /// Something else to do with a study.
+    #[command(subcommand)]
+    pub command: Option<StudyCommand>,
+    /// The cases: a CSV file, or a grid of lists in TOML
+    #[arg(required = true)]
+    pub table: Option<PathBuf>,
+    /// The script
+    #[arg(required = true)]
+    pub model: Option<PathBuf>,
+    /// The folder of the study
+    #[arg(long, value_name = "DIR", required = true)]
+    pub out: Option<PathBuf>,
+    /// Cases at a time [default: as many as the machine has cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+    /// Cases whose answers are kept; governing: the failed too, and the largest of each result and line
+    #[arg(long, value_enum, default_value_t = KeepArg::Governing)]
+    pub keep: KeepArg,
+    /// Seed of the study
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u64,
+    /// Run failed cases of an earlier start again
+    #[arg(long)]
+    pub retry_failed: bool,
+}
+
+/// What else is done with a study.
+#[derive(clap::Subcommand, Debug)]
+pub enum StudyCommand {
+    /// Make the answers of one case again
+    Rerun {
+        /// The folder of the study
+        study: PathBuf,
+        /// The name of the case
+        case: String,
+    },
+}
+
+/// Which cases keep their answers.
+#[derive(ValueEnum, Clone, Copy, Debug, Default)]
+pub enum KeepArg {
+    /// No case.
+    None,
+    /// Failed cases.
+    Failed,
+    /// Failed and governing cases.
+    #[default]
+    Governing,
+    /// All cases.
+    All,
+}
+
+/// How a study ended.
+pub enum StudyExit {
+    /// All cases are done.
+    Done,
+    /// A case has failed, or a file cannot be read or written.
+    Failed,
+    /// The command line or the table is wrong.
+    Usage,
+    /// It was interrupted.
+    Interrupted,
+}
+
+/// Runs a study, or a case of one again; `complain` takes what is wrong, `out` the summary.
+pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> StudyExit {
+    let stop = Arc::new(AtomicBool::new(false));
+    let stopping = Arc::clone(&stop);
+    // without the handler Ctrl-C ends the program; what is written stays whole
+    let _ = ctrlc::set_handler(move || stopping.store(true, Ordering::Relaxed));
+    if let Some(StudyCommand::Rerun { study, case }) = &args.command {
+        return rerun(study, case, out, complain);
+    }
+    let (Some(table), Some(model), Some(folder)) = (&args.table, &args.model, &args.out) else {
+        complain("a study needs a table, a script and --out DIR");
+        return StudyExit::Usage;
+    };
+    let read = read_regular(table, LARGEST_TABLE).map_err(|error| format!("{}: {error}", table.display()));
+    let text =
+        read.and_then(|bytes| String::from_utf8(bytes).map_err(|_| format!("{}: it is not UTF-8", table.display())));
+    let cases = text.and_then(|text| {
+        CaseTable::parse(&table.display().to_string(), &text, args.seed).map_err(|error| error.to_string())
+    });
+    let cases = match cases {
+        Ok(cases) => cases,
+        Err(error) => {
+            complain(&error);
+            return StudyExit::Usage;
+        }
+    };
+    if !model.is_file() {
+        complain(&format!("there is no script {}", model.display()));
+        return StudyExit::Usage;
+    }
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = args.jobs.map_or(cores, usize::from);
+    let processes = match Processes::new(model, (cores / jobs).max(1)) {
+        Ok(processes) => processes,
+        Err(error) => {
+            complain(&format!("no process can be started: {error}"));
+            return StudyExit::Failed;
+        }
+    };
+    let plan = StudyPlan {
+        folder: folder.clone(),
+        model: model.display().to_string(),
+        table_name: table.display().to_string(),
+        table: cases,
+        seed: args.seed,
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        jobs,
+        keep: match args.keep {
+            KeepArg::None => Keep::Nothing,
+            KeepArg::Failed => Keep::Failed,
+            KeepArg::Governing => Keep::Governing,
+            KeepArg::All => Keep::Everything,
+        },
+        retry_failed: args.retry_failed,
+    };
+    let bar = progress_bar();
+    let told = |progress: Progress| {
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.finished as u64);
+        bar.set_message(format!("{} failed", progress.failed));
+    };
+    let ended = run_study(&plan, &SystemFiles, &processes, &stop, &told);
+    bar.finish_and_clear();
+    let ended = match ended {
+        Ok(ended) => ended,
+        Err(error) => {
+            complain(&error.to_string());
+            return if matches!(error, StudyError::Folder { .. }) { StudyExit::Usage } else { StudyExit::Failed };
+        }
+    };
+    let written = Study::open(folder).map_err(|e| e.to_string()).and_then(|study| {
+        tables::write(&study, folder, &SystemFiles).map_err(|e| format!("{}: {e}", folder.display()))?;
+        Ok(study)
+    });
+    let study = match written {
+        Ok(study) => study,
+        Err(error) => {
+            complain(&error);
+            return StudyExit::Failed;
+        }
+    };
+    let text = summary(&study, &plan, &ended);
+    // a reader that has gone wants no more of it
+    let _ = out.write_all(printable(&text).replace("\\u{a}", "\n").as_bytes()).and_then(|()| out.flush());
+    let left = plan.table.cases.len() > study.records.len().min(ended.kept + ended.progress.finished);
+    if left {
+        StudyExit::Interrupted
+    } else if study.count(CaseStatus::Failed) > 0 {
+        StudyExit::Failed
+    } else {
+        StudyExit::Done
+    }
+}
+
+/// A bar at a terminal, with the rate and the time to go.
+fn progress_bar() -> ProgressBar {
+    if !stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
+    let form = "{bar:30} {pos} of {len} cases, {msg}, {per_sec}, {eta} to go";
+    if let Ok(style) = ProgressStyle::with_template(form) {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// What came of it, in a few lines.
+fn summary(study: &Study, plan: &StudyPlan, ended: &windlass_study::runner::StudyEnd) -> String {
+    let (total, done) = (plan.table.cases.len(), study.count(CaseStatus::Done));
+    let (over, failed) = (study.count(CaseStatus::Overloaded), study.count(CaseStatus::Failed));
+    let mut text = format!("{total} cases: {done} done, {over} overloaded, {failed} failed");
+    let left = total.saturating_sub(ended.kept + ended.progress.finished);
+    if left > 0 {
+        text.push_str(&format!(", {left} left: the same command goes on"));
+    }
+    text.push('\n');
+    if ended.kept > 0 {
+        text.push_str(&format!("   {} were done before\n", ended.kept));
+    }
+    for (case, reason) in ended.again.iter().take(MOST_NAMED) {
+        text.push_str(&format!("   {case} was run again: {reason}\n"));
+    }
+    if ended.again.len() > MOST_NAMED {
+        text.push_str(&format!("   and {} more were run again\n", ended.again.len() - MOST_NAMED));
+    }
+    let wrong: Vec<_> = study.records.iter().filter(|record| record.status == CaseStatus::Failed).collect();
+    for record in wrong.iter().take(MOST_NAMED) {
+        text.push_str(&format!("   {} failed: {}\n", record.case, record.reason));
+    }
+    if wrong.len() > MOST_NAMED {
+        text.push_str(&format!("   and {} more failed: the column reason of results.csv\n", wrong.len() - MOST_NAMED));
+    }
+    text.push_str(&format!("   {}\n", plan.folder.join(tables::RESULTS_CSV).display()));
+    text
+}
+
+/// Makes the answers of a case again.
+fn rerun(folder: &Path, name: &str, out: &mut impl Write, complain: &dyn Fn(&str)) -> StudyExit {
+    let study = match Study::open(folder) {
+        Ok(study) => study,
+        Err(error) => {
+            complain(&error.to_string());
+            return StudyExit::Usage;
+        }
+    };
+    let Some(record) = study.records.iter().find(|record| record.case.eq_ignore_ascii_case(name)) else {
+        let names = study.records.iter().map(|record| record.case.as_str());
+        let near = windlass_base::diagnostic::did_you_mean(name, names).unwrap_or_default();
+        complain(&format!("{} has no finished case {name} {near}", folder.display()));
+        return StudyExit::Usage;
+    };
+    let (columns, values): (Vec<String>, Vec<String>) = record.values.iter().cloned().unzip();
+    let case = Case { name: record.case.clone(), values, seed: record.seed };
+    let place = folder.join("rerun").join(&record.case);
+    let fresh = SystemFiles.remove_folder(&place).and_then(|()| SystemFiles.make_folder(&place));
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let processes = Processes::new(Path::new(&study.info.model), cores);
+    let (processes, made) = match (fresh, processes) {
+        (Ok(()), Ok(processes)) => {
+            let made = processes.run(&case, &columns, &place);
+            (processes, made)
+        }
+        (Err(error), _) | (_, Err(error)) => {
+            complain(&format!("{}: {error}", place.display()));
+            return StudyExit::Failed;
+        }
+    };
+    let Some(made) = made else { return StudyExit::Interrupted };
+    let changed = record.read.iter().find(|read| !processes.is_unchanged(read));
+    let same = made.results == record.results && made.lines == record.lines && made.status == record.status;
+    let verdict = match changed {
+        _ if same => "the same results, to the last digit".to_owned(),
+        Some(read) => format!("other results than before: {} has changed", read.path),
+        None => format!("other results than before, made by version {}", record.version),
+    };
+    let _ = writeln!(out, "{}: {}, {verdict}\n   {}", made.case, made.status.text(), place.display());
+    if !made.reason.is_empty() {
+        let _ = writeln!(out, "   {}", printable(&made.reason));
+    }
+    if same && made.status != CaseStatus::Failed { StudyExit::Done } else { StudyExit::Failed }
+}
