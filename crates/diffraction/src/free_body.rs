@@ -3,6 +3,7 @@
 use crate::error::DiffractionError;
 use crate::problem::FrequencyForces;
 use nalgebra::{Complex, DMatrix, DVector};
+use windlass_base::dense::{Lu, never};
 
 type C = Complex<f64>;
 
@@ -32,17 +33,14 @@ pub fn free_motions(forces: &FrequencyForces, body: &FreeBody) -> Result<Vec<Vec
     let dynamic = DMatrix::from_fn(shape.0, shape.1, |i, j| {
         let inertia = mass[(i, j)] + forces.added_mass[(i, j)];
         C::new(stiffness[(i, j)] - omega * omega * inertia, -omega * (damping[(i, j)] + forces.damping[(i, j)]))
-    })
-    .lu();
+    });
+    let factors = Lu::new(dynamic, &never).map_err(|_| DiffractionError::NoMotions(omega))?;
     forces
         .excitation
         .iter()
         .map(|excitation| {
-            let motions = dynamic.solve(&DVector::from_column_slice(excitation));
-            motions
-                .filter(|motions| motions.iter().all(|x| x.re.is_finite() && x.im.is_finite()))
-                .map(|motions| motions.as_slice().to_vec())
-                .ok_or(DiffractionError::NoMotions(omega))
+            let motions = factors.solve(&DVector::from_column_slice(excitation));
+            motions.map(|motions| motions.as_slice().to_vec()).map_err(|_| DiffractionError::NoMotions(omega))
         })
         .collect()
 }

@@ -1,11 +1,11 @@
 //! Seeds of cases: from the seed of the study, the name of the case and the member, never from where a case stands in its table.
 
-/// FNV-1a, 64 bits, of bytes: offset basis and prime of [FNV 3].
+/// FNV-1a, 64 bits, of bytes: offset basis and prime of [FNV-DRAFT 3].
 fn fnv1a(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
 }
 
-/// SplitMix64 [SPLITMIX 5]: the number that follows a state.
+/// SplitMix64 [SPLITMIX-2014 5]: the number that follows a state.
 fn split_mix(state: u64) -> u64 {
     let mut z = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
