@@ -48,7 +48,8 @@ fn bare(name: &str) -> &str {
 }
 
 impl Layout {
-    /// The layout of a section. A head with a name that is not known leaves the order of version 2, with a warning.
+    /// The layout of a section. A head with a name that is not known leaves the order of version 2, with a
+    /// warning; names in another order than that of version 2 are a warning too.
     pub(crate) fn new(section: &Section<'_>, columns: &'static [Column], messages: &mut Vec<Diagnostic>) -> Self {
         let mut order = Vec::new();
         for word in &section.columns.words {
@@ -65,6 +66,13 @@ impl Layout {
                     return Layout { columns, order: (0..columns.len()).collect() };
                 }
             }
+        }
+        // names in another order than MoorDyn 2 reads: what is written is taken, and that it differs is said
+        let moved = order.windows(2).position(|pair| matches!(pair, [a, b] if a > b));
+        if let Some(word) = moved.and_then(|index| section.columns.words.get(index + 1)) {
+            let warning = Diagnostic::warning("columns stand in another order than in MoorDyn v2", word.span);
+            let warning = warning.label("the names are followed");
+            messages.push(*warning.help("MoorDyn v2 skips the names and reads its own order: it gives other answers"));
         }
         if order.is_empty() {
             order = (0..columns.len()).collect();

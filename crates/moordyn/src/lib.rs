@@ -3,7 +3,7 @@
 //!
 //! Nothing is converted: values are in the units of the deck (SI, angles in degrees; z up from the mean water level). Every value has its
 //! place. The columns of a table are taken by the names in its head, where all of them are known; else in the order of version 2, with a
-//! warning. MoorDyn itself skips the head, so a deck whose head and rows disagree is read differently there.
+//! warning. MoorDyn 2 itself skips the names: of a table whose names stand in another order it reads other values, which is a warning too.
 //!
 //! A load that windlass does not compute is an error at its word: vortex-induced vibration, viscoelastic and Syrope ropes, tables of bending
 //! stiffness, failures, controls, external loads, currents by time or place. So is an option that is not known, which MoorDyn passes over.

@@ -9,7 +9,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 pub struct Options {
     /// g (m/s2); MoorDyn's default is 9.80665.
     pub gravity: Option<Given<f64>>,
-    /// rho, WtrDnsty (kg/m3); MoorDyn's default is 1025.
+    /// rho, WtrDnsty (kg/m3); MoorDyn's default is 1025; 0: no water.
     pub density: Option<Given<f64>>,
     /// WtrDpth (m).
     pub depth: Option<Given<f64>>,
@@ -122,7 +122,7 @@ fn one(value: &Word<'_>, name: &Word<'_>, options: &mut Options) -> Outcome<()> 
     };
     match kind {
         OptionKind::Gravity => set(&mut options.gravity, size(value, known, true)?),
-        OptionKind::Density => set(&mut options.density, size(value, known, true)?),
+        OptionKind::Density => set(&mut options.density, size(value, known, false)?),
         OptionKind::Depth => set(&mut options.depth, number(value, known)?),
         OptionKind::SeabedStiffness => set(&mut options.seabed_stiffness, size(value, known, false)?),
         OptionKind::SeabedDamping => set(&mut options.seabed_damping, size(value, known, false)?),

@@ -36,6 +36,7 @@ fn wrong_words_are_errors_at_the_word() {
         ("2   Coupled", "3   Coupled", "3", "expected 2"),
         ("kBot", "kBott", "kBott", "did you mean kBot"),
         ("1e6     kBot", "kBot 1e6", "kBot", "write 1e6 kBot"),
+        ("1e6     kBot", "1000 WtrDnsity", "WtrDnsity", "did you mean WtrDnsty"),
         ("1e6     kBot", "5 Currents", "5", "loads would be lost"),
         ("1e6     kBot", "4 WaveKin", "4", "expected one of 0 1 2 3 7"),
         ("1e6     kBot", "100 depth", "100", "given twice"),

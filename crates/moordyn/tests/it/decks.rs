@@ -43,7 +43,9 @@ Line LineType UnstrLen NumSegs NodeAnch NodeFair Flags/Outputs
 1 main 835.35 20 1 2 pt
 ";
     let reading = read(text);
-    assert!(reading.messages.is_empty(), "{:#?}", reading.messages);
+    assert!(!reading.is_failed(), "{:#?}", reading.messages);
+    let warnings: Vec<&str> = reading.messages.iter().map(|message| message.message.as_str()).collect();
+    assert_eq!(warnings, ["columns stand in another order than in MoorDyn v2"; 2]);
     let main = &reading.deck.line_types[0];
     let coefficients = [&main.ca_normal, &main.ca_axial, &main.cd_normal, &main.cd_axial].map(|c| c.value);
     assert_eq!(coefficients, [1.0, 0.25, 1.6, 0.1]);
@@ -108,4 +110,26 @@ fn ends_of_lines_have_six_forms() {
         assert!(reading.messages.is_empty(), "{word}: {:#?}", reading.messages);
         assert_eq!(reading.deck.lines[0].ends[1].value, end);
     }
+}
+
+#[test]
+fn version_1_coefficients_in_a_version_2_table_are_taken_by_name_with_a_warning() {
+    // MoorDyn 2 reads Cd 1, Ca 0.25, CdAx 1.6 from this row
+    let text =
+        SINGLE_LINE.replace("Cd   Ca   CdAx  CaAx", "Can Cat Cdn Cdt").replace("1.33 1.0  0.4   0.5", "1 0.25 1.6 0.1");
+    let reading = read(&text);
+    assert_eq!(reading.messages.len(), 1);
+    let message = &reading.messages[0];
+    let span = message.span.unwrap();
+    assert_eq!(&text[span.start as usize..span.end as usize], "Cdn");
+    assert!(message.message.contains("another order") && !reading.is_failed());
+    let kind = &reading.deck.line_types[0];
+    assert_eq!((kind.cd_normal.value, kind.ca_normal.value, kind.ca_axial.value), (1.6, 1.0, 0.25));
+}
+
+#[test]
+fn density_may_be_zero() {
+    let reading = read(&SINGLE_LINE.replace("1e6     kBot", "0.0 WtrDnsty"));
+    assert!(reading.messages.is_empty());
+    assert_eq!(reading.deck.options.density.unwrap().value, 0.0);
 }
