@@ -49,7 +49,7 @@ fn bare(name: &str) -> &str {
 
 impl Layout {
     /// The layout of a section. A head with a name that is not known leaves the order of version 2, with a
-    /// warning; names in another order than that of version 2 are a warning too.
+    /// warning, or is an error where its other names have another order; names in another order than that of version 2 are a warning too.
     pub(crate) fn new(section: &Section<'_>, columns: &'static [Column], messages: &mut Vec<Diagnostic>) -> Self {
         let mut order = Vec::new();
         for word in &section.columns.words {
@@ -62,6 +62,17 @@ impl Layout {
                     let known = columns.iter().filter_map(|c| c.names.first().copied()).collect::<Vec<_>>().join(" ");
                     let warning = Diagnostic::warning(format!("column {} is not known here", word.value), word.span);
                     let warning = warning.label("columns are read in MoorDyn v2's order");
+                    // where the names that are known stand elsewhere than in that order, it is not the order of this table
+                    let place = |w: &Word<'_>| {
+                        columns.iter().position(|c| c.names.iter().any(|n| n.eq_ignore_ascii_case(bare(w.value))))
+                    };
+                    let mut named = section.columns.words.iter().enumerate();
+                    if named.any(|(index, w)| w.value != "y0" && place(w).is_some_and(|p| p != index)) {
+                        let error = Diagnostic::error(format!("column {} is not known here", word.value), word.span);
+                        let error = error.label("the other columns are not in MoorDyn v2's order");
+                        messages.push(*error.help(format!("known: {known}")));
+                        return Layout { columns, order };
+                    }
                     messages.push(*warning.help(format!("the order is {known}")));
                     return Layout { columns, order: (0..columns.len()).collect() };
                 }

@@ -103,3 +103,11 @@ fn any_beginning_of_a_deck_and_any_bytes_are_answered() {
         assert!(read(text).is_failed() || text == "--- LINES ---", "{text}");
     }
 }
+
+#[test]
+fn unknown_column_among_names_in_another_order_is_an_error() {
+    let text = SINGLE_LINE.replace("AttachA  AttachB  UnstrLen  NumSegs", "Len_unstr NumSegs AttachA AttachB");
+    let reading = read(&text);
+    assert!(reading.is_failed());
+    assert_eq!(reading.messages[0].message, "column Len_unstr is not known here");
+}
