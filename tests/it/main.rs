@@ -89,6 +89,7 @@ mod floating {
     mod moses_hulls;
     mod moses_weights;
     mod networks;
+    mod panel_forces;
     mod piece_loads;
     mod semi_study;
     mod side_by_side;

@@ -50,6 +50,7 @@ pub mod surface_integrals;
 mod tank;
 pub mod variation;
 mod weight;
+pub mod wetted_hull;
 pub mod wind;
 
 pub use ambient::ambient;

@@ -1,4 +1,4 @@
-//! `HYDRODYNAMICS`: the hydrodynamic data of bodies in the forms of MOSES. `G_PRESSURE` keeps headings and periods; `I_TOTAL` reads the
+//! `HYDRODYNAMICS`: the hydrodynamic data of bodies in the forms of MOSES. `G_PRESSURE` makes a database by panels; `I_TOTAL` reads the
 //! values of a database and `E_TOTAL` writes them; `V_MATRICES`, `V_EXFORCES` and `V_MDRIFT` show them.
 //!
 //! Source: [MOSES-REF hydr_men, pressure] for the menu and G_PRESSURE. The records of I_TOTAL are from memory of MOSES; their units, and
@@ -6,6 +6,7 @@
 
 use crate::commands::menu;
 use crate::commands::model::database;
+use crate::commands::model::panel_forces::{self, PanelRequest};
 use crate::commands::output::disposition::write_file;
 use crate::commands::status::database_table;
 use crate::commands::{Call, Command, Effect, Job, Menu};
@@ -73,7 +74,7 @@ macro_rules! typed {
 static MENU_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::MAIN],
     opens: Opens::Menu(&menu::HYDRODYNAMICS),
-    detail: "Diffraction is not computed: DATABASE reads databases of WAMIT, NEMOH, Capytaine and AQWA, I_TOTAL those given by records.",
+    detail: "G_PRESSURE makes the database of a body by panels; DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA, I_TOTAL those given by records.",
     example: concat!(typed!(), "V_MATRICES BALL\nREPORT\nEND\nEND"),
     ..CommandSpec::new("HYDRODYNAMICS", "hydrodynamic data of bodies, up to END")
 };
@@ -84,28 +85,47 @@ const HEADING: OptionSpec = OptionSpec::new(
     "headings",
 )
 .repeating(1)
-.default("those of &DEFAULT");
+.default("0 to 345 by 15");
 const PERIOD: OptionSpec = OptionSpec::new(
     "-PERIOD",
     &[ValueSpec::new("T", Kind::Number(Dim::Time), "period").positive()],
     "periods, at most 200",
 )
 .repeating(1)
-.default("those of &DEFAULT");
+.default("those of &DEFAULT; else frequencies of 0.1 to 2 rad/s by 0.05, as far as a wave has sixteen panels");
+const PANEL: OptionSpec = OptionSpec::ours(
+    "-PANEL",
+    &[ValueSpec::new("SIZE", Kind::Number(Dim::Length), "length of their sides, at most").positive()],
+    "size of the panels",
+)
+.default("that of 1000 panels on the whole hull");
+const WATER_DEPTH: OptionSpec = OptionSpec::ours(
+    "-DEPTH",
+    &[ValueSpec::new("D", Kind::Number(Dim::Length), "depth").positive()],
+    "the depth of the water",
+)
+.default("that of the environment; deep water where it has none");
 const MAX_DIST: OptionSpec = OptionSpec::new(
     "-MAX_DIST",
     &[ValueSpec::new("D", Kind::Number(Dim::Length), "length").positive()],
-    "accepted: meshes of a diffraction that is not made",
+    "accepted, without effect: -PANEL has the size of the panels",
 );
 
 static PRESSURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, MAX_DIST],
-    detail: "Headings and periods are kept as those of RAO (and of &DEFAULT). A body with a database, of DATABASE or I_TOTAL, has what G_PRESSURE of MOSES \
-             computes: that is said. For one without, motions stop with one error until it is given a database.",
-    example: concat!(typed!(), "G_PRESSURE BALL -HEADING 180 -PERIOD 6 9\nEND\nFREQ_RESPONSE\nRAO\nEND"),
-    stops: "solves of motions stop until the body has a database, of I_TOTAL or DATABASE; headings and periods are kept for RAO",
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, MAX_DIST],
+    detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
+             are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
+             Mirror planes of the hull are found and used. The inner waterplane is closed by a lid where its waterline is one ring, which takes \
+             irregular frequencies away. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
+             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency and without mean drift. Roll has the damping of radiated waves \
+             alone: #DAMP adds what eddies take. The report has the panels of a wave length and the difference of exciting forces by pressure and by Haskind's \
+             relation, which measures the mesh. Headings and periods are kept as those of RAO. A body with a database of DATABASE or I_TOTAL keeps it: \
+             that is said. For a body without a hull motions stop with one error until it is given a database.",
+    example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BARGE\n*CG 0 0 0\n#WEIGHT *CG 100552 12 26 26\n&SURFACE\n\
+              BLOCK HULL -45 -15 -3.7 45 15 4\nEND_&SURFACE\nEND\nHYDRODYNAMICS\nG_PRESSURE BARGE -HEADING 180 90 -PERIOD 7 9 12 -PANEL 6\nEND\n\
+              FREQ_RESPONSE\nRAO\nEND",
     ..CommandSpec::new("G_PRESSURE", "hydrodynamic pressures of a body")
 };
 
@@ -233,7 +253,10 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     const NAME: DatumKey<str> = PRESSURE_SPEC.word("BODY");
     let (args, span) = (&call.args, call.args.span);
     let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
-    let (name, has_database) = (body.name.clone(), body.database.is_some());
+    let name = body.name.clone();
+    // what it has made itself it makes again
+    let has_database = body.database.as_ref().is_some_and(|attached| attached.data.source != "G_PRESSURE");
+    let has_hull = windlass_hydro::wetted_hull::has_hull(&job.model, body);
     let given = |option: &OptionSpec| args.option(option).map(Given::numbers).filter(|list| !list.is_empty());
     let (headings, periods) = (given(&HEADING), given(&PERIOD));
     if let Some(list) = periods.as_ref().filter(|list| list.len() > MAX_PERIODS) {
@@ -250,6 +273,27 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
         return Ok(Effect::Done);
     }
+    if has_hull {
+        if job.checking.is_some() {
+            return Ok(Effect::Done);
+        }
+        let length = |option: &OptionSpec| given(option).and_then(|list| list.first().copied());
+        let toward = |list: Vec<f64>| -> Vec<f64> {
+            let mut list: Vec<f64> = list.iter().map(|from| (from + PI).rem_euclid(TAU)).collect();
+            list.sort_by(f64::total_cmp);
+            list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+            list
+        };
+        let request = PanelRequest {
+            headings: given(&HEADING).map_or_else(panel_forces::usual_headings, toward),
+            periods: job.model.wave_defaults.periods.clone(),
+            size: length(&PANEL),
+            depth: length(&WATER_DEPTH),
+            span,
+        };
+        panel_forces::compute(job, &name, &request)?;
+        return Ok(Effect::Done);
+    }
     settle_pressure(&mut job.model, &name);
     let effect = UnmodelledEffect {
         record: pressure_record(&name),
@@ -258,13 +302,11 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         span,
     };
     job.model.keep_unmodelled(effect);
-    let said = Diagnostic::warning(
-        format!("diffraction of {name} is not computed; motions stop until it has a database"),
-        span,
-    );
+    let said =
+        Diagnostic::warning(format!("{name} has no hull for G_PRESSURE; motions stop until it has a database"), span);
     job.notices.push(
         *said.help(
-            "DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; I_TOTAL .. END_I_TOTAL gives one by records",
+            "BLOCK, PGEN or PANEL describes a hull; DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; I_TOTAL .. END_I_TOTAL gives one by records",
         ),
     );
     Ok(Effect::Done)

@@ -79,6 +79,21 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         ],
     },
     ReportColumns {
+        printed_by: "G_PRESSURE of HYDRODYNAMICS",
+        titles: &["Pressures on @"],
+        columns: &[
+            column("Period", &[Dim::Time], "period of the waves"),
+            column("Wave Length", &[Dim::Length], "length of the waves"),
+            column("Panels a Wave", NONE, "wave length over the size of the panels"),
+            column(
+                "Haskind",
+                NONE,
+                "largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
+            ),
+            column("Products", NONE, "products with the matrices until the equations were solved"),
+        ],
+    },
+    ReportColumns {
         printed_by: "V_MATRICES of HYDRODYNAMICS",
         titles: &["Added Mass and Damping of @"],
         columns: &[

@@ -18,7 +18,7 @@ mod tube;
 pub use combination::{Combination, CombinationError};
 pub use faults::{Fault, MAX_REPORTED_FAULTS, intersect};
 pub use mesh::{MeshFile, MeshKind, read_mesh};
-pub(super) use panelling::{Panel, Panelling};
+pub(super) use panelling::{Panel, Panelling, pair_triangles};
 pub use state::Hydrostatics;
 pub use surface::Surface;
 pub use tube::TubeHull;

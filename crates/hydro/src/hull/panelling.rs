@@ -150,7 +150,7 @@ impl Panelling {
 }
 
 /// The parallelograms of a surface, corners in turn, and the triangles that are left.
-fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
+pub fn pair_triangles(surface: &Surface) -> (Vec<[u32; 4]>, Vec<[u32; 3]>) {
     let position = |n: u32| surface.vertices[n as usize];
     let length = |p: u32, q: u32| (position(q) - position(p)).norm();
     // each face turned so that its longest edge, where there is one, comes first

@@ -1,0 +1,355 @@
+//! Panels of the wetted hull of a body where it stands, for radiation and diffraction of waves.
+
+use crate::buoyancy::skin;
+use crate::hull::{Combination, Surface, pair_triangles};
+use nalgebra::{Matrix3, Rotation3, Vector3};
+use windlass_base::pose::Pose;
+use windlass_model::{Body, ClassError, Model, Piece, WaveAction};
+
+/// A polygon of a face, counter-clockwise as seen from the water.
+type Polygon = Vec<Vector3<f64>>;
+
+/// Corners of a panel whose area is less than this share of the square of the size are on a line.
+const FLAT_SHARE: f64 = 1e-10;
+/// Halves whose moments agree to this share are mirror images.
+const MIRROR_SHARE: f64 = 1e-7;
+/// Nearer to a plane than this share of the hull a corner lies in it.
+const PLANE_SHARE: f64 = 1e-9;
+
+/// The hull of a body that displaces water, in upright axes: x along the body's heading, z up from the water level, the origin above or below
+/// that of the body.
+#[derive(Clone, Debug)]
+pub struct WettedHull {
+    polygons: Vec<Polygon>,
+    /// From these axes to those of the body.
+    pub axes: Matrix3<f64>,
+    /// Height of the body's origin over the water level (m).
+    pub origin_height: f64,
+    /// Whether the hull is the same at -x and at -y.
+    pub mirrors: [bool; 2],
+    /// Wetted area (m2).
+    pub area: f64,
+    /// Displaced volume (m3).
+    pub volume: f64,
+    /// Names of the pieces it is of.
+    pub pieces: Vec<String>,
+}
+
+/// Why there is no wetted hull.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum WettedHullError {
+    /// No piece that waves act on by a database.
+    #[error(
+        "{0} has no piece whose hull waves act on: BLOCK, PGEN or PANEL describes one; -DIFTYPE FK and members are not meshed"
+    )]
+    NoPieces(String),
+    /// All of it is above the water.
+    #[error("{0} does not touch the water where it stands")]
+    Dry(String),
+    /// A piece that takes volume away.
+    #[error(
+        "{piece} of {body} has permeability {permeability}: such a piece is not meshed; DIFFERENCE of blocks makes one hull"
+    )]
+    Permeability {
+        /// The body.
+        body: String,
+        /// The piece.
+        piece: String,
+        /// Its permeability.
+        permeability: f64,
+    },
+    /// A piece that is no closed surface.
+    #[error("{0}")]
+    Piece(String),
+    /// Pieces that cannot be united.
+    #[error("the pieces of {body} cannot be made one hull: {why}")]
+    Union {
+        /// The body.
+        body: String,
+        /// Why.
+        why: String,
+    },
+}
+
+impl WettedHull {
+    /// The hull of a body below a water level (m), its pieces united.
+    ///
+    /// # Errors
+    /// No piece under water; an open piece or one of another permeability than 1; pieces that cannot be united.
+    pub fn new(model: &Model, body: &Body, level: f64) -> Result<Self, WettedHullError> {
+        let (mut surface, mut names): (Option<Surface>, Vec<String>) = (None, Vec::new());
+        for part in model.parts_of(body) {
+            for piece in &part.pieces {
+                if !is_of_hull(piece) {
+                    continue;
+                }
+                if piece.permeability != 1.0 {
+                    let (body, piece, permeability) = (body.name.clone(), piece.name.clone(), piece.permeability);
+                    return Err(WettedHullError::Permeability { body, piece, permeability });
+                }
+                let said = |error: ClassError| WettedHullError::Piece(error.to_string());
+                let Some(own) = skin(part, piece).map_err(said)? else { continue };
+                names.push(piece.name.clone());
+                surface = Some(match surface {
+                    None => own,
+                    Some(united) => united
+                        .combined(&own, Combination::Union)
+                        .map_err(|why| WettedHullError::Union { body: body.name.clone(), why: why.to_string() })?,
+                });
+            }
+        }
+        let surface = surface.ok_or_else(|| WettedHullError::NoPieces(body.name.clone()))?;
+        let mut hull =
+            WettedHull::of_surface(&surface, &Pose::from_place(&body.position), body.position.turn[2], level);
+        if hull.polygons.is_empty() {
+            return Err(WettedHullError::Dry(body.name.clone()));
+        }
+        hull.pieces = names;
+        Ok(hull)
+    }
+
+    /// That of a closed surface in body axes, in a pose with a heading (rad).
+    fn of_surface(surface: &Surface, pose: &Pose, heading: f64, level: f64) -> Self {
+        let tilt = Rotation3::from_axis_angle(&Vector3::z_axis(), -heading).matrix() * pose.axes;
+        let origin_height = pose.origin.z - level;
+        let placed: Vec<Vector3<f64>> =
+            surface.vertices.iter().map(|p| tilt * p + Vector3::new(0.0, 0.0, origin_height)).collect();
+        let extent = placed.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
+        let room = PLANE_SHARE * extent;
+        let corner = |n: &u32| placed.get(*n as usize).copied();
+        let (parallelograms, triangles) = pair_triangles(surface);
+        let faces = parallelograms.iter().map(|f| f.iter().filter_map(corner).collect::<Polygon>());
+        let faces = faces.chain(triangles.iter().map(|f| f.iter().filter_map(corner).collect()));
+        // what lies in the surface itself is dry
+        let wet = |face: &Polygon| face.iter().any(|p| p.z < -room);
+        let polygons: Vec<Polygon> =
+            faces.filter(wet).map(|face| below(&face, |p| p.z, room)).filter(|face| face.len() >= 3).collect();
+        let mirrors = [0, 1].map(|axis| is_mirrored(&polygons, axis, room));
+        let (mut area, mut volume) = (0.0, 0.0);
+        for polygon in &polygons {
+            let normal = area_vector(polygon);
+            area += normal.norm();
+            // the divergence of (0, 0, z), which vanishes in the water plane
+            volume += integral_of_height(polygon, &normal);
+        }
+        WettedHull { polygons, axes: tilt.transpose(), origin_height, mirrors, area, volume, pieces: Vec::new() }
+    }
+
+    /// Quadrilaterals with sides of about a size (m) at most, a triangle repeating a corner: of the part at positive coordinates where
+    /// mirror planes are used.
+    pub fn panels(&self, size: f64, mirrors: [bool; 2]) -> Vec<[Vector3<f64>; 4]> {
+        let extent = self.polygons.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
+        let room = PLANE_SHARE * extent;
+        let mut made = Vec::new();
+        for polygon in &self.polygons {
+            let mut part = polygon.clone();
+            for (axis, used) in mirrors.into_iter().enumerate() {
+                if used {
+                    part = below(&part, |p| -p[axis], room);
+                }
+            }
+            match part.as_slice() {
+                [a, b, c, d] => quadrilateral([*a, *b, *c, *d], size, &mut made),
+                [first, rest @ ..] => {
+                    for pair in rest.windows(2) {
+                        if let [b, c] = pair {
+                            triangle([*first, *b, *c], size, &mut made);
+                        }
+                    }
+                }
+                [] => {}
+            }
+        }
+        made
+    }
+}
+
+/// Whether a piece belongs to the hull that waves act on by a database.
+fn is_of_hull(piece: &Piece) -> bool {
+    let meshed = match piece.waves {
+        WaveAction::Database => true,
+        WaveAction::ByForm => piece.member.is_none(),
+        WaveAction::Pressure => false,
+    };
+    meshed && piece.permeability != 0.0 && piece.compartment.is_none()
+}
+
+/// Whether a body has a piece that can be meshed.
+pub fn has_hull(model: &Model, body: &Body) -> bool {
+    model.parts_of(body).any(|part| part.pieces.iter().any(is_of_hull))
+}
+
+/// What of a convex polygon has a measure of at most zero (Sutherland and Hodgman): corners within `room` of zero are on it.
+fn below(polygon: &[Vector3<f64>], measure: impl Fn(&Vector3<f64>) -> f64, room: f64) -> Polygon {
+    let mut made = Polygon::new();
+    let mut push = |p: Vector3<f64>| {
+        if made.last().is_none_or(|last: &Vector3<f64>| (last - p).norm() > room) {
+            made.push(p);
+        }
+    };
+    let next = polygon.iter().cycle().skip(1);
+    for (a, b) in polygon.iter().zip(next) {
+        let (m, n) = (measure(a), measure(b));
+        if m <= room {
+            push(*a);
+        }
+        if (m < -room && n > room) || (m > room && n < -room) {
+            push(a + (b - a) * (m / (m - n)));
+        }
+    }
+    if made.len() > 1 && made.first().zip(made.last()).is_some_and(|(first, last)| (first - last).norm() <= room) {
+        made.pop();
+    }
+    // what only touches the plane has no area on this side
+    if made.iter().all(|p| measure(p) >= -room) && !polygon.iter().all(|p| measure(p).abs() <= room) {
+        made.clear();
+    }
+    made
+}
+
+/// Area times the normal of a plane polygon (m2).
+fn area_vector(polygon: &[Vector3<f64>]) -> Vector3<f64> {
+    let Some((first, rest)) = polygon.split_first() else { return Vector3::zeros() };
+    rest.windows(2)
+        .map(|pair| if let [b, c] = pair { (b - first).cross(&(c - first)) * 0.5 } else { Vector3::zeros() })
+        .sum()
+}
+
+/// Integral of z over a plane polygon times the vertical component of its normal (m3).
+fn integral_of_height(polygon: &[Vector3<f64>], normal: &Vector3<f64>) -> f64 {
+    let Some((first, rest)) = polygon.split_first() else { return 0.0 };
+    let up = if normal.norm() > 0.0 { normal.z / normal.norm() } else { 0.0 };
+    let part =
+        |b: &Vector3<f64>, c: &Vector3<f64>| (b - first).cross(&(c - first)).norm() * 0.5 * (first.z + b.z + c.z) / 3.0;
+    up * rest.windows(2).map(|pair| if let [b, c] = pair { part(b, c) } else { 0.0 }).sum::<f64>()
+}
+
+/// Whether the halves on both sides of a plane through the origin are mirror images, by their moments up to the third order.
+fn is_mirrored(polygons: &[Polygon], axis: usize, room: f64) -> bool {
+    let other = 1 - axis;
+    let moments = |sign: f64| {
+        let mut sums = [0.0; 12];
+        for polygon in polygons {
+            let half = below(polygon, |p| -sign * p[axis], room);
+            let Some((first, rest)) = half.split_first() else { continue };
+            for pair in rest.windows(2) {
+                let [b, c] = pair else { continue };
+                let normal = (b - first).cross(&(c - first)) * 0.5;
+                let area = normal.norm();
+                // exact to the second degree: middles of the edges
+                for p in [(first + b) * 0.5, (b + c) * 0.5, (c + first) * 0.5] {
+                    let (a, o, z, w) = (sign * p[axis], p[other], p.z, area / 3.0);
+                    let terms = [
+                        1.0,
+                        a,
+                        o,
+                        z,
+                        a * a,
+                        o * o,
+                        z * z,
+                        a * o,
+                        a * z,
+                        o * z,
+                        normal[other] * a / area.max(f64::MIN_POSITIVE),
+                        normal.z * o * a / area.max(f64::MIN_POSITIVE),
+                    ];
+                    for (sum, term) in sums.iter_mut().zip(terms) {
+                        *sum += w * term;
+                    }
+                }
+            }
+        }
+        sums
+    };
+    let [left, right] = [moments(1.0), moments(-1.0)];
+    let extent = polygons.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
+    let area: f64 = left[0] + right[0];
+    let degrees = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2, 1, 2];
+    left.iter()
+        .zip(right)
+        .zip(degrees)
+        .all(|((a, b), degree)| (a - b).abs() <= MIRROR_SHARE * area * extent.powi(degree))
+}
+
+/// Cells of a convex quadrilateral.
+fn quadrilateral([a, b, c, d]: [Vector3<f64>; 4], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
+    let parts = |p: f64, q: f64| (p.max(q) / size - 1e-9).ceil().max(1.0) as usize;
+    let (columns, rows) = (parts((b - a).norm(), (c - d).norm()), parts((d - a).norm(), (c - b).norm()));
+    let at = |i: usize, j: usize| {
+        let (u, v) = (i as f64 / columns as f64, j as f64 / rows as f64);
+        (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
+    };
+    for j in 0..rows {
+        for i in 0..columns {
+            push([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], size, made);
+        }
+    }
+}
+
+/// Parts of a triangle, halved across its longest edge until that is the diagonal of a square of the size.
+fn triangle(corners: [Vector3<f64>; 3], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
+    let mut open = vec![corners];
+    while let Some([a, b, c]) = open.pop() {
+        let edges = [(a - b).norm(), (b - c).norm(), (c - a).norm()];
+        let turned = if edges[0] >= edges[1] && edges[0] >= edges[2] {
+            [a, b, c]
+        } else if edges[1] >= edges[2] {
+            [b, c, a]
+        } else {
+            [c, a, b]
+        };
+        let [p, q, r] = turned;
+        if (p - q).norm() <= size * std::f64::consts::SQRT_2 {
+            push([p, q, r, r], size, made);
+        } else {
+            let middle = (p + q) * 0.5;
+            open.extend([[p, middle, r], [middle, q, r]]);
+        }
+    }
+}
+
+fn push(panel: [Vector3<f64>; 4], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
+    let [a, b, c, d] = panel;
+    if (c - a).cross(&(d - b)).norm() > FLAT_SHARE * size * size {
+        made.push(panel);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use windlass_base::geometry::Place;
+
+    fn box_hull(low: [f64; 3], high: [f64; 3], at: [f64; 3]) -> WettedHull {
+        let place = Place { shift: at, turn: [0.0; 3] };
+        WettedHull::of_surface(&Surface::block(low, high), &Pose::from_place(&place), 0.0, 0.0)
+    }
+
+    #[test]
+    fn box_is_cut_at_the_water_and_mirrored() {
+        // 40 x 10 m, keel 3 m below the water
+        let hull = box_hull([-20.0, -5.0, 0.0], [20.0, 5.0, 8.0], [0.0, 0.0, -3.0]);
+        assert!((hull.volume - 1200.0).abs() < 1e-9 && (hull.area - (400.0 + 2.0 * 3.0 * 50.0)).abs() < 1e-9);
+        assert_eq!(hull.mirrors, [true, true]);
+        let panels = hull.panels(2.5, [false, false]);
+        // bottom 16 x 4, sides 16 x 2 and 4 x 2 twice each
+        assert_eq!(panels.len(), 64 + 2 * (32 + 8));
+        let quarter = hull.panels(2.5, [true, true]);
+        assert_eq!(quarter.len() * 4, panels.len());
+        assert!(quarter.iter().flatten().all(|p| p.x > -1e-9 && p.y > -1e-9 && p.z < 1e-9));
+        let area: f64 = quarter.iter().map(|[a, b, c, d]| 0.5 * (c - a).cross(&(d - b)).norm()).sum();
+        assert!((4.0 * area - hull.area).abs() < 1e-9);
+        // normals out of the hull: the bottom looks down
+        let outward = panels.iter().all(|[a, b, c, d]| {
+            let (normal, middle) = ((c - a).cross(&(d - b)), (a + b + c + d) * 0.25);
+            normal.dot(&(middle - Vector3::new(0.0, 0.0, -1.5))) > 0.0
+        });
+        assert!(outward);
+    }
+
+    #[test]
+    fn hull_off_its_origin_has_no_mirror_there() {
+        let hull = box_hull([-10.0, -5.0, 0.0], [20.0, 5.0, 8.0], [0.0, 0.0, -3.0]);
+        assert_eq!(hull.mirrors, [false, true]);
+    }
+}
