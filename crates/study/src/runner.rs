@@ -3,7 +3,7 @@
 use crate::record::{CaseRecord, CaseStatus, FileRead};
 use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, results_file};
 use crate::table::{Case, CaseTable};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -11,6 +11,9 @@ use std::time::{Duration, Instant};
 
 /// Longest time that a record waits for the disk.
 const SYNC_AFTER: Duration = Duration::from_secs(1);
+
+/// Failed cases that keep the folder of their answers, unless all cases do: a study in which all fail is not to fill the disk.
+pub const MAX_FAILED_FOLDERS: usize = 200;
 
 /// Which cases keep the folder of their answers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -226,9 +229,13 @@ fn drop_stray_folders(plan: &StudyPlan, files: &dyn Files, kept_cases: &Path) ->
         let record = study.records.iter().find(|record| record.case == name);
         record.is_some_and(|record| keeps(plan.keep, record.status, governing.held.get(name).copied().unwrap_or(0) > 0))
     };
+    let failed = study.records.iter().filter(|record| record.status == CaseStatus::Failed);
+    let too_many: HashSet<&str> = failed.skip(MAX_FAILED_FOLDERS).map(|record| record.case.as_str()).collect();
     for entry in std::fs::read_dir(kept_cases).map_err(StudyError::of(kept_cases))? {
         let entry = entry.map_err(StudyError::of(kept_cases))?;
-        if !stays(&entry.file_name().to_string_lossy()) {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let is_surplus = plan.keep != Keep::Everything && too_many.contains(name.as_str());
+        if is_surplus || !stays(&name) {
             let path = entry.path();
             files.remove_folder(&path).map_err(StudyError::of(&path))?;
         }
@@ -305,7 +312,8 @@ fn keep_folder(shared: &Shared, record: &CaseRecord, running: &Path) -> Result<(
     let place = |case: &str| plan.folder.join(KEPT_CASES).join(case);
     let mut state = shared.state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let (governs, gone) = state.0.offer(record);
-    if keeps(plan.keep, record.status, governs) {
+    let too_many = record.status == CaseStatus::Failed && state.1.failed >= MAX_FAILED_FOLDERS;
+    if (plan.keep == Keep::Everything || !too_many) && keeps(plan.keep, record.status, governs) {
         let to = place(&record.case);
         files.move_folder(running, &to).map_err(StudyError::of(&to))?;
     }
