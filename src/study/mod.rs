@@ -256,8 +256,8 @@ fn rerun(folder: &Path, name: &str, out: &mut impl Write, complain: &dyn Fn(&str
     };
     let Some(record) = study.records.iter().find(|record| record.case.eq_ignore_ascii_case(name)) else {
         let names = study.records.iter().map(|record| record.case.as_str());
-        let near = windlass_base::diagnostic::did_you_mean(name, names).unwrap_or_default();
-        complain(&format!("{} has no finished case {name} {near}", folder.display()));
+        let near = windlass_base::diagnostic::did_you_mean(name, names).map(|near| format!("; {near}"));
+        complain(&format!("{} has no finished case {name}{}", folder.display(), near.unwrap_or_default()));
         return StudyExit::Usage;
     };
     let (columns, values): (Vec<String>, Vec<String>) = record.values.iter().cloned().unzip();
