@@ -3,13 +3,15 @@
 //! From top to bottom: `cli` and `repl` (the two front doors), `session` (records one after the other), `commands` (a spec and a
 //! handler each), `report` (tables, files, plots, films). The engines are crates of their own, `windlass-*`, and the dependency
 //! graph of Cargo keeps their order; none of them knows of commands, files or printing. `verification` runs scripts and compares
-//! their results with numbers that windlass did not make; `study` runs tables of cases, a process each.
+//! their results with numbers that windlass did not make; `study` runs tables of cases, a process each. `hosted` is a session for
+//! programs that call it.
 
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
 pub mod cli;
 pub mod commands;
+pub mod hosted;
 pub mod manual;
 pub mod repl;
 pub mod report;

@@ -277,7 +277,7 @@ pub struct Checking {
 }
 
 /// A table that a record has shown or opened a menu over, with the user's units of that moment.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct KeptTable {
     /// The table.
     pub table: Table,

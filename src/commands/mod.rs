@@ -41,6 +41,7 @@ use model::{
     alter, apply, assembly, block_combination, class, compartment, connector, database, describe, element,
     hydrodynamics, hydrostatic, junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
 };
+pub use output::animate::DEFAULT_LINE_POINTS as FILM_LINE_POINTS;
 pub use output::buildg::take as take_row;
 use output::{
     add_column, animate, buildg, disposition, message, picture, plot, report_menu, result, series, statistic, store,

@@ -63,16 +63,18 @@ pub struct StoredColumn {
 /// # Errors
 /// [`StoreError::Empty`].
 pub fn stored_columns(table: &Table, units: UnitSystem) -> Result<Vec<StoredColumn>, StoreError> {
-    if table.rows() == 0 {
-        return Err(StoreError::Empty);
-    }
+    if table.rows() == 0 { Err(StoreError::Empty) } else { Ok(columns_of(table, units)) }
+}
+
+/// The columns of a table, of one without rows too.
+pub fn columns_of(table: &Table, units: UnitSystem) -> Vec<StoredColumn> {
     let make = |(column, head): (&Column, String)| StoredColumn {
         head,
         long_name: super::columns::long_name(column),
         unit: column.dim.label(units),
         values: values(column, units),
     };
-    Ok(table.columns().iter().zip(super::csv::heads(table, units)).map(make).collect())
+    table.columns().iter().zip(super::csv::heads(table, units)).map(make).collect()
 }
 
 /// The narrowest type that holds every cell.

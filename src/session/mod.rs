@@ -71,6 +71,8 @@ pub struct Session {
     pub errors: i64,
     /// Somebody is typing: errors do not end the run.
     pub interactive: bool,
+    /// A run ends at its first error, for programs that call; what else was open is to be given up by the caller.
+    pub stops_at_error: bool,
     /// Keep every message in [`Session::reports`], for programs that read them.
     pub keep_reports: bool,
     /// The messages kept.
@@ -104,6 +106,7 @@ impl Session {
             interpreter,
             errors: 0,
             interactive: false,
+            stops_at_error: false,
             keep_reports: false,
             reports: Vec::new(),
             errors_at_prompt: 0,
@@ -193,6 +196,9 @@ impl Session {
     }
 
     fn too_many_errors(&mut self) -> bool {
+        if self.stops_at_error && self.errors > 0 {
+            return true;
+        }
         let settings = &self.job.settings;
         let limit = settings.error_limit;
         if self.interactive {

@@ -42,21 +42,40 @@ struct CaseOutput {
     read: Vec<PathBuf>,
 }
 
-/// Runs cases as processes of this program.
+/// The program that runs one case when [`CASE_COMMAND`] stands behind its arguments.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseProgram {
+    /// The file of the program.
+    pub file: PathBuf,
+    /// What stands before [`CASE_COMMAND`].
+    pub arguments: Vec<String>,
+}
+
+impl CaseProgram {
+    /// This program itself.
+    ///
+    /// # Errors
+    /// What the system says of the program's own file.
+    pub fn of_this_process() -> std::io::Result<Self> {
+        Ok(CaseProgram { file: std::env::current_exe()?, arguments: Vec::new() })
+    }
+}
+
+/// Runs cases as processes of a program.
 pub struct Processes {
-    program: PathBuf,
+    program: CaseProgram,
     model: PathBuf,
     threads: usize,
     hashes: Mutex<HashMap<PathBuf, Option<(u64, String)>>>,
 }
 
 impl Processes {
-    /// Processes over a script, each with so many threads.
+    /// Processes over a script, each with so many threads; of this program, where no other is given.
     ///
     /// # Errors
     /// What the system says of the program's own file.
-    pub fn new(model: &Path, threads: usize) -> std::io::Result<Self> {
-        let program = std::env::current_exe()?;
+    pub fn new(model: &Path, threads: usize, program: Option<&CaseProgram>) -> std::io::Result<Self> {
+        let program = program.map_or_else(CaseProgram::of_this_process, |program| Ok(program.clone()))?;
         Ok(Processes { program, model: model.to_path_buf(), threads, hashes: Mutex::default() })
     }
 
@@ -75,7 +94,8 @@ impl Processes {
     }
 
     fn start(&self, input: &CaseInput) -> std::io::Result<std::process::Output> {
-        let mut child = Command::new(&self.program)
+        let mut child = Command::new(&self.program.file)
+            .args(&self.program.arguments)
             .arg(CASE_COMMAND)
             .env("RAYON_NUM_THREADS", self.threads.to_string())
             .stdin(Stdio::piped())

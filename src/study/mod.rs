@@ -3,7 +3,8 @@
 mod case_process;
 mod tables;
 
-pub use case_process::{CASE_COMMAND, run_one};
+pub use case_process::{CASE_COMMAND, CaseProgram, run_one};
+pub use tables::StudyTables;
 
 use self::case_process::Processes;
 use crate::report::files::read_regular;
@@ -68,6 +69,9 @@ pub struct StudyArgs {
     /// Run failed cases of an earlier start again
     #[arg(long)]
     pub retry_failed: bool,
+    /// What runs the cases, where it is not this program.
+    #[arg(skip)]
+    pub program: Option<CaseProgram>,
 }
 
 /// What else is done with a study.
@@ -115,7 +119,7 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     // without the handler Ctrl-C ends the program; what is written stays whole
     let _ = ctrlc::set_handler(move || stopping.store(true, Ordering::Relaxed));
     if let Some(StudyCommand::Rerun { study, case }) = &args.command {
-        return rerun(study, case, out, complain);
+        return rerun((study, case), args.program.as_ref(), out, complain);
     }
     let (Some(table), Some(model), Some(folder)) = (&args.table, &args.model, &args.out) else {
         complain("a study needs a table, a script and --out DIR");
@@ -140,7 +144,7 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = args.jobs.map_or(cores, usize::from);
-    let processes = match Processes::new(model, (cores / jobs).max(1)) {
+    let processes = match Processes::new(model, (cores / jobs).max(1), args.program.as_ref()) {
         Ok(processes) => processes,
         Err(error) => {
             complain(&format!("no process can be started: {error}"));
@@ -202,6 +206,14 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     }
 }
 
+/// The tables of a study as it stands in its folder.
+///
+/// # Errors
+/// A folder without a study, and what the system refuses.
+pub fn read(folder: &Path) -> Result<StudyTables, StudyError> {
+    Study::open(folder).map(|study| StudyTables::new(&study))
+}
+
 /// A bar at a terminal, with the rate and the time to go.
 fn progress_bar() -> ProgressBar {
     if !stderr().is_terminal() {
@@ -246,7 +258,12 @@ fn summary(study: &Study, plan: &StudyPlan, ended: &windlass_study::runner::Stud
 }
 
 /// Makes the answers of a case again.
-fn rerun(folder: &Path, name: &str, out: &mut impl Write, complain: &dyn Fn(&str)) -> StudyExit {
+fn rerun(
+    (folder, name): (&Path, &str),
+    program: Option<&CaseProgram>,
+    out: &mut impl Write,
+    complain: &dyn Fn(&str),
+) -> StudyExit {
     let study = match Study::open(folder) {
         Ok(study) => study,
         Err(error) => {
@@ -265,7 +282,7 @@ fn rerun(folder: &Path, name: &str, out: &mut impl Write, complain: &dyn Fn(&str
     let place = folder.join("rerun").join(&record.case);
     let fresh = SystemFiles.remove_folder(&place).and_then(|()| SystemFiles.make_folder(&place));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let processes = Processes::new(Path::new(&study.info.model), cores);
+    let processes = Processes::new(Path::new(&study.info.model), cores, program);
     let (processes, made) = match (fresh, processes) {
         (Ok(()), Ok(processes)) => {
             let made = processes.run(&case, &columns, &place);

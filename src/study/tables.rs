@@ -12,15 +12,30 @@ use windlass_study::store::{Files, Study};
 /// A row a case.
 pub const RESULTS_CSV: &str = "results.csv";
 
+/// Both tables, as columns.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyTables {
+    /// A row a case.
+    pub results: Vec<StoredColumn>,
+    /// A row a line of each case; no column where no case has one.
+    pub lines: Vec<StoredColumn>,
+}
+
+impl StudyTables {
+    /// The tables of a study.
+    pub fn new(study: &Study) -> Self {
+        StudyTables { results: result_columns(study), lines: line_columns(study) }
+    }
+}
+
 /// Writes results.csv, results.parquet, lines.csv and lines.parquet; those of lines where there are some.
 ///
 /// # Errors
 /// What the system refuses.
 pub fn write(study: &Study, folder: &Path, files: &dyn Files) -> io::Result<()> {
-    let results = result_columns(study);
+    let StudyTables { results, lines } = StudyTables::new(study);
     files.write(&folder.join(RESULTS_CSV), &csv_bytes(&results)?)?;
     files.write(&folder.join("results.parquet"), &parquet_bytes("Results of a study", results)?)?;
-    let lines = line_columns(study);
     if !lines.is_empty() {
         files.write(&folder.join("lines.csv"), &csv_bytes(&lines)?)?;
         files.write(&folder.join("lines.parquet"), &parquet_bytes("Lines of a study", lines)?)?;

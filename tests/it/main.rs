@@ -15,6 +15,7 @@ mod program {
     mod film;
     mod functions;
     mod fuzz_corpus;
+    mod hosted;
     mod hostile_input;
     mod lines;
     mod live_page;

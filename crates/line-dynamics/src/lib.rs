@@ -5,7 +5,7 @@
 //! [`RodSolver::step`] takes it on in time, or [`RodSolver::trial`] and [`RodSolver::accept`] with a body at an end that must
 //! find its own motion by [`RodSolver::end_tangent`]; [`RodSolver::modes`] finds how it swings. A [`LineEnvironment`] says what
 //! surrounds it, an [`RodEnd`] what holds it. [`Rod::results`] gives tensions, moments and stresses along it,
-//! [`RodEnergyBalance`] is the energy and momentum balance.
+//! [`RodEnergyBalance`] is the energy and momentum balance. [`CoupledLines`] are lines for a program that moves their fairleads.
 //!
 //! SI units (m, kg, s, N, rad), global axes with z up. End A is the first node. Nothing is allocated in a step, and a
 //! step costs as much as its elements: one pass over them, and a band to factor.
@@ -35,6 +35,7 @@ mod bend;
 mod condense;
 mod contact;
 mod continuation;
+mod coupled;
 mod element_batch;
 mod ends;
 mod energy_balance;
@@ -74,6 +75,7 @@ mod winch;
 mod workspace;
 
 pub use condense::{EndTangent, Matrix12};
+pub use coupled::{CoupledLine, CoupledLines, Surroundings};
 pub use ends::{RodEnd, RodEndMotion};
 pub use energy_balance::{Energy, RodEnergyBalance, Work};
 pub use environment::{

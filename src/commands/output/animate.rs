@@ -20,7 +20,7 @@ use windlass_solve::results::EventWindow;
 pub static ANIMATE: Command = Command { spec: &SPEC, edits: false, run };
 
 /// Points of a line where none are asked for.
-const DEFAULT_LINE_POINTS: usize = 40;
+pub const DEFAULT_LINE_POINTS: usize = 40;
 /// Most bytes of all the files of a series.
 const MAX_SERIES_BYTES: usize = 1 << 30;
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod coupled;
 mod moordyn;
 mod rod_moordyn;
 mod rod_statics;

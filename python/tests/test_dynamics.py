@@ -1,0 +1,79 @@
+"""Dynamic lines driven from Python: a taut line's stiffness, the weight of a hanging one, MoorDyn's chain."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import windlass
+from windlass.dynamics import Dynamics
+
+MOORDYN = Path(__file__).parents[2] / "tests" / "data" / "moordyn_chain900.csv"
+BARE = dict(cd_normal=0.0, cd_axial=0.0, ca_normal=0.0, ca_axial=0.0)
+
+
+def test_taut_line_pulled_slowly_gives_its_stiffness():
+    line = dict(length=100.0, mass=0.01, ea=1e6, diameter=0.01, elements=10, anchor=(0, 0, 0), fairlead=(101, 0, 0), **BARE)
+    lines = Dynamics([line], density=0.0, dt=0.5)
+    assert lines.forces[0, 0] == pytest.approx(-1e4, abs=1.0)
+    for t in np.arange(1.0, 21.0):
+        force = lines.step(t, [101.0 + 0.05 * t, 0.0, 0.0], [0.05, 0.0, 0.0])
+    assert force[0, 0] == pytest.approx(-2e4, abs=20.0)
+    assert lines.anchor_forces[0, 0] == pytest.approx(2e4, abs=20.0)
+    assert (lines.time, len(lines)) == (20.0, 1)
+
+
+def test_ends_of_a_hanging_line_carry_its_weight():
+    line = dict(length=120.0, mass=50.0, ea=1e8, diameter=0.05, elements=20, anchor=(0, 0, -5), fairlead=(0, 90, 0), **BARE)
+    lines = Dynamics([line], density=0.0, gravity=9.81)
+    assert lines.forces[0, 2] + lines.anchor_forces[0, 2] == pytest.approx(-120 * 50 * 9.81, abs=1.0)
+    nodes = lines.nodes(0)
+    assert nodes.shape == (21, 3) and np.allclose(nodes[0], (0, 90, 0)) and np.allclose(nodes[-1], (0, 0, -5))
+
+
+def test_driven_chain_follows_moordyn():
+    chain = dict(
+        length=900.0, mass=199.0, ea=8.54e8, diameter=0.18, elements=100, axial_damping=1e6,
+        cd_normal=1.333, cd_axial=0.639, ca_normal=1.0, ca_axial=0.5,
+        anchor=(-800.0, 0.0, -300.0), fairlead=(0.0, 0.0, -10.0),
+    )
+    lines = Dynamics([chain], depth=300.0, dt=0.1)
+    with MOORDYN.open() as file:
+        rows = [[float(cell) for cell in row] for row in csv.reader(file) if row[0].replace(".", "").isdigit()]
+    wanted = {round(row[0], 6): np.hypot(row[1], row[2]) for row in rows}
+    size = max(wanted.values()) - min(wanted.values())
+    worst = 0.0
+    for t in np.round(np.arange(0.1, 30.05, 0.1), 6):
+        w, p = 2 * np.pi / 10, np.pi / 20
+        r, rate = (0.5 * (1 - np.cos(p * t)), 0.5 * p * np.sin(p * t)) if t < 20 else (1.0, 0.0)
+        x, v = 5 * r * np.sin(w * t), 5 * (rate * np.sin(w * t) + r * w * np.cos(w * t))
+        force = lines.step(t, [[x, 0.0, -10.0]], [[v, 0.0, 0.0]])
+        if t in wanted:
+            worst = max(worst, abs(np.linalg.norm(force) - wanted[t]))
+    assert 0.0 < worst < 0.02 * size
+
+
+def test_wrong_lines_and_steps_are_named():
+    good = dict(length=100.0, mass=1.0, ea=1e6, diameter=0.01, anchor=(0, 0, 0), fairlead=(99, 0, 0), **BARE)
+    for change, said in [
+        (dict(mass=-1.0), "the mass per length"),
+        (dict(lenght=1.0), "`lenght` is no property of a line: did you mean length"),
+        (dict(elements=10**9), "at most"),
+        (dict(elements=2.5), "elements is no whole number"),
+        (dict(fairlead=(np.nan, 0, 0)), "an end is not finite"),
+    ]:
+        with pytest.raises((windlass.Error, ValueError), match=said):
+            Dynamics([{**good, **change}])
+    with pytest.raises(ValueError, match="cd_normal is missing"):
+        Dynamics([{name: value for name, value in good.items() if name != "cd_normal"}])
+    lines = Dynamics([good], density=0.0)
+    with pytest.raises(windlass.Error, match="goes nowhere"):
+        lines.step(-1.0, [99.0, 0, 0], [0, 0, 0])
+    with pytest.raises(windlass.Error, match="1 fairleads"):
+        lines.step(1.0, np.zeros((2, 3)), np.zeros((2, 3)))
+    with pytest.raises(ValueError, match="a row x, y, z a line"):
+        lines.step(1.0, np.zeros((1, 2)), np.zeros((1, 2)))
+    with pytest.raises(IndexError):
+        lines.nodes(3)
+    assert lines.time == 0.0
