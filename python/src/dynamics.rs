@@ -126,7 +126,7 @@ impl Dynamics {
 #[pymethods]
 impl Dynamics {
     #[new]
-    #[pyo3(signature = (lines, *, depth = None, density = 1025.0, gravity = 9.80665, current = [0.0, 0.0, 0.0], seabed_stiffness = 3e6, seabed_damping = 3e5, friction = 0.0, dt = 0.05))]
+    #[pyo3(signature = (lines, *, depth, density, gravity, current, seabed_stiffness, seabed_damping, friction, dt))]
     #[allow(clippy::too_many_arguments, reason = "the arguments of the Python class")]
     fn new(
         py: Python<'_>,

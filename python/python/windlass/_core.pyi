@@ -6,6 +6,22 @@ from typing import Any, final
 import numpy as np
 from numpy.typing import NDArray
 
+__all__ = [
+    "Line",
+    "solve",
+    "Dynamics",
+    "Message",
+    "Result",
+    "Session",
+    "read_study",
+    "run_program",
+    "Film",
+    "Svg",
+    "System",
+    "Table",
+    "__version__",
+]
+
 __version__: str
 
 _Floats = NDArray[np.float64]
@@ -165,14 +181,14 @@ class Dynamics:
         cls,
         lines: list[dict[str, Any]],
         *,
-        depth: float | None = None,
-        density: float = 1025.0,
-        gravity: float = 9.80665,
-        current: tuple[float, ...] = (0.0, 0.0, 0.0),
-        seabed_stiffness: float = ...,
-        seabed_damping: float = ...,
-        friction: float = 0.0,
-        dt: float = 0.05,
+        depth: float | None,
+        density: float,
+        gravity: float,
+        current: tuple[float, ...],
+        seabed_stiffness: float,
+        seabed_damping: float,
+        friction: float,
+        dt: float,
     ) -> Dynamics: ...
     def step(self, t: float, x: _Floats, v: _Floats) -> _Floats: ...
     @property

@@ -148,7 +148,7 @@ class Line:
     ) -> None:
         given = None if joints is None else [None if joint is None else tuple(joint) for joint in joints]
         self._line = _core.Line(
-            [tuple(segment) for segment in segments],
+            [(float(length), float(weight), float(ea)) for length, weight, ea in segments],
             anchor=anchor,
             joints=given,
             surface=surface,

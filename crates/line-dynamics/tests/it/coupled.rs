@@ -25,7 +25,7 @@ fn driven_chain_follows_moordyn_by_positions_and_velocities_alone() {
         drag_tangential: 0.639,
         added_normal: 1.0,
         added_tangential: 0.5,
-        ..RodSegment::line(900.0, 30, 199.0, 8.54e8, 0.18)
+        ..RodSegment::line(900.0, 100, 199.0, 8.54e8, 0.18)
     };
     let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
     let bottom =
