@@ -6,10 +6,13 @@
 //! model is as before it. No panic leaves a call.
 
 use crate::commands::FILM_LINE_POINTS;
+use crate::report::columns::choose;
 use crate::report::files::JobFolder;
 use crate::report::film;
 use crate::report::output::Output;
+use crate::report::page::{self, PageHead};
 use crate::report::picture::{Picture, USUAL_WIDTH, View};
+use crate::report::plot::Chart;
 use crate::report::stored::{StoredColumn, columns_of};
 use crate::session::{Session, SessionEnd, read_text};
 use std::io::Write;
@@ -18,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, Once};
 use windlass_base::diagnostic::{Diagnostic, Severity};
-use windlass_base::table::Table;
+use windlass_base::table::{Cell, Column, Fact, Table};
 use windlass_language::render::render;
 use windlass_language::source::Text;
 use windlass_solve::film::{Film, FilmSelection};
@@ -360,9 +363,8 @@ pub fn columns(kept: &KeptTable) -> Vec<StoredColumn> {
 }
 
 /// The facts above the rows of a table: name, value in the user's units, unit.
-pub fn facts(kept: &KeptTable) -> Vec<(String, windlass_base::table::Cell, String)> {
-    use windlass_base::table::Cell;
-    let value = |fact: &windlass_base::table::Fact| match &fact.value {
+pub fn facts(kept: &KeptTable) -> Vec<(String, Cell, String)> {
+    let value = |fact: &Fact| match &fact.value {
         Cell::Number(value) => Cell::Number(fact.dim.from_si(*value, kept.units)),
         other => other.clone(),
     };
@@ -371,30 +373,31 @@ pub fn facts(kept: &KeptTable) -> Vec<(String, windlass_base::table::Cell, Strin
 
 /// A table as it is printed.
 pub fn text(kept: &KeptTable) -> String {
-    let head = crate::report::page::PageHead { date: None, titles: Default::default(), process: String::new() };
-    crate::report::page::render(&kept.table, kept.units, &head, None)
+    let head = PageHead { date: None, titles: Default::default(), process: String::new() };
+    page::render(&kept.table, kept.units, &head, None)
 }
 
-/// Columns of a table against its first one, as SVG; all of them where `names` is empty. A name is a selector of the disposition menu: a
-/// name, the beginning of one, a number, a range.
+/// Columns of a table against its first one, as SVG. A name is a selector of the disposition menu: a name, the beginning of one, a number, a
+/// range. Where none is given, those columns of numbers whose units are the first two behind that of the first one: a plot has two axes.
 ///
 /// # Errors
 /// [`NoDrawing`]: a name of no column, columns of more than two units, nothing to draw.
 pub fn plot(kept: &KeptTable, names: &[String]) -> Result<String, NoDrawing> {
-    use crate::report::{columns::choose, plot::Chart};
     without_panic(|| {
         let table = &kept.table;
-        let is_plotted = |index: &usize| table.columns().get(*index).is_some_and(has_number);
-        let mut chosen: Vec<usize> = Vec::new();
-        for name in names {
-            chosen.extend(choose(table, name).map_err(|error| NoDrawing(error.to_string()))?);
-        }
-        if names.is_empty() {
-            chosen = (0..table.columns().len()).filter(is_plotted).collect();
-        } else if names.len() == 1 || chosen.first() != Some(&0) && !chosen.contains(&0) {
-            chosen.insert(0, 0);
-        }
-        chosen.dedup();
+        let chosen = if names.is_empty() {
+            columns_of_two_units(kept)
+        } else {
+            let mut chosen: Vec<usize> = Vec::new();
+            for name in names {
+                chosen.extend(choose(table, name).map_err(|error| NoDrawing(error.to_string()))?);
+            }
+            if chosen.len() == 1 || !chosen.contains(&0) {
+                chosen.insert(0, 0);
+            }
+            chosen.dedup();
+            chosen
+        };
         let columns = chosen.iter().filter_map(|index| table.columns().get(*index).cloned()).collect();
         let part = Table::from_columns(table.title.clone(), columns);
         let svg = Chart::from_table(&part, kept.units).and_then(|chart| chart.svg());
@@ -403,8 +406,22 @@ pub fn plot(kept: &KeptTable, names: &[String]) -> Result<String, NoDrawing> {
     })
 }
 
-fn has_number(column: &windlass_base::table::Column) -> bool {
-    column.cells.iter().any(|cell| cell.number().is_some())
+/// The first column of numbers and those behind it whose units are the first two there.
+fn columns_of_two_units(kept: &KeptTable) -> Vec<usize> {
+    let has_number = |column: &Column| column.cells.iter().any(|cell| cell.number().is_some());
+    let mut units: Vec<String> = Vec::new();
+    let mut chosen = Vec::new();
+    for (index, column) in kept.table.columns().iter().enumerate().filter(|(_, column)| has_number(column)) {
+        let unit = column.dim.label(kept.units);
+        if !chosen.is_empty() && !units.contains(&unit) {
+            if units.len() == 2 {
+                continue;
+            }
+            units.push(unit);
+        }
+        chosen.push(index);
+    }
+    chosen
 }
 
 /// What is made, or that a panic was met.

@@ -1,6 +1,6 @@
 //! Quasi-static lines over numpy arrays.
 
-use crate::errors::engine_error;
+use crate::errors::{detached, engine_error};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -136,13 +136,13 @@ pub fn solve<'py>(
     ];
     let count = count(&inputs)?;
     let [x, z, length, ea, w, friction] = &inputs;
-    let solved = py.detach(|| {
+    let solved = detached(py, || {
         solve_all(count, threads, |at| -> Result<EndForces, LineError> {
             let segment = Segment { length: length.get(at), weight: w.get(at), ea: ea.get(at) };
             let bottom = seabed.then(|| FlatBottom { friction: friction.get(at) });
             segment.solve_end_forces(x.get(at), z.get(at), bottom)
         })
-    });
+    })?;
     let failed = failures(py, &solved, raise_)?;
     let columns = Columns::new(py);
     columns.add("h", column(&solved, |f| f.fairlead[0]))?;
@@ -210,7 +210,8 @@ impl Line {
             Some(given) => given.iter().map(joint).collect::<PyResult<Vec<Joint>>>()?,
         };
         let floor = seabed.then_some(SeabedModel { elevation: anchor, slope, friction });
-        let engine = Engine::new(segments, joints, anchor, surface).and_then(|line| line.with_seabed(floor));
+        let made = || Engine::new(segments, joints, anchor, surface).and_then(|line| line.with_seabed(floor));
+        let engine = detached(py, made)?;
         engine.map(|engine| Line { engine }).map_err(|error| engine_error(py, error))
     }
 
@@ -240,13 +241,13 @@ impl Line {
         let inputs = [contiguous("x", &x)?, contiguous("z", &z)?];
         let count = count(&inputs)?;
         let [x, z] = &inputs;
-        let solved = py.detach(|| {
+        let solved = detached(py, || {
             solve_all(count, threads, |at| -> Result<LineForces, LineError> {
                 // each is found as if nothing were known, so that the order of the places does not show
                 let mut warm: Option<CatenaryWarmStart> = None;
                 self.engine.solve_forces(x.get(at), z.get(at), &mut warm)
             })
-        });
+        })?;
         let failed = failures(py, &solved, raise_)?;
         let columns = Columns::new(py);
         add_pulls(&columns, &solved, stiffness)?;
@@ -259,8 +260,8 @@ impl Line {
         if points > MAX_SHAPE_POINTS {
             return Err(PyValueError::new_err(format!("at most {MAX_SHAPE_POINTS} points a segment")));
         }
-        let state = py.detach(|| self.engine.at_distance(x, z)).map_err(|error| engine_error(py, error))?;
-        let shape = self.engine.shape(&state, points);
+        let shape = detached(py, || self.engine.at_distance(x, z).map(|state| self.engine.shape(&state, points)))?;
+        let shape = shape.map_err(|error| engine_error(py, error))?;
         let columns = Columns::new(py);
         columns.add("arc", shape.iter().map(|point| point.arc).collect())?;
         columns.add("x", shape.iter().map(|point| point.x).collect())?;
@@ -272,8 +273,8 @@ impl Line {
 
     /// The distance from the anchor (m) at which the tension at a fairlead of elevation `z` is as wanted (N).
     fn distance_at_tension(&self, py: Python<'_>, tension: f64, z: f64) -> PyResult<f64> {
-        let state = py.detach(|| self.engine.at_tension(tension, z)).map_err(|error| engine_error(py, error))?;
-        Ok(state.x)
+        let state = detached(py, || self.engine.at_tension(tension, z))?;
+        state.map(|state| state.x).map_err(|error| engine_error(py, error))
     }
 
     fn __repr__(&self) -> String {

@@ -1,6 +1,6 @@
 //! Dynamic lines whose fairleads the caller moves.
 
-use crate::errors::engine_error;
+use crate::errors::{detached, engine_error};
 use crate::interruptible;
 use nalgebra::Vector3;
 use numpy::ndarray::Array2;
@@ -188,12 +188,8 @@ impl Dynamics {
         let mut inner = inner.map_err(|_| PyRuntimeError::new_err("the lines are at work in another thread"))?;
         let lines = &mut *inner;
         // steps of a coupling are short: no thread is begun for each
-        let stepped = py.detach(|| std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| lines.step(t, &x, &v))));
-        match stepped {
-            Ok(Ok(())) => Ok(rows(py, &inner.fairlead_forces())),
-            Ok(Err(error)) => Err(engine_error(py, error)),
-            Err(panic) => Err(crate::errors::of_panic(py, panic)),
-        }
+        detached(py, || lines.step(t, &x, &v))?.map_err(|error| engine_error(py, error))?;
+        Ok(rows(py, &inner.fairlead_forces()))
     }
 
     /// The time at which the lines are (s).

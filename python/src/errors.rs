@@ -2,6 +2,7 @@
 
 use pyo3::prelude::*;
 use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use windlass::hosted::{HostMessage, internal_error};
 
 /// An exception of `windlass.errors` by its name, or the exception that its module cannot be imported.
@@ -18,6 +19,14 @@ pub fn engine_error(py: Python<'_>, text: impl std::fmt::Display) -> PyErr {
 /// `windlass.InternalError`: a panic was met.
 pub fn of_panic(py: Python<'_>, _: Box<dyn Any + Send>) -> PyErr {
     exception(py, "InternalError", &format!("{}; please report it", internal_error()))
+}
+
+/// What `work` returns beside the interpreter.
+///
+/// # Errors
+/// `windlass.InternalError` where it panics.
+pub fn detached<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work))).map_err(|panic| of_panic(py, panic))
 }
 
 /// `windlass.RecordError` with the place of the word.

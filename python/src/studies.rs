@@ -1,6 +1,6 @@
 //! Studies, and the program itself: both run as processes of `python -m windlass`.
 
-use crate::errors::engine_error;
+use crate::errors::{detached, engine_error};
 use crate::table::Table;
 use clap::Parser;
 use pyo3::prelude::*;
@@ -25,7 +25,7 @@ pub fn run_program(py: Python<'_>, arguments: Vec<String>, interpreter: PathBuf)
 /// The tables of a study as it stands in its folder: a row a case, a row a line of each case.
 #[pyfunction]
 pub fn read_study(py: Python<'_>, folder: PathBuf) -> PyResult<(Table, Table)> {
-    let tables = py.detach(|| study::read(&folder)).map_err(|error| engine_error(py, error))?;
+    let tables = detached(py, || study::read(&folder))?.map_err(|error| engine_error(py, error))?;
     let title = |what: &str| format!("{what} of {}", folder.display());
     Ok((Table::from_columns(&title("Results"), tables.results), Table::from_columns(&title("Lines"), tables.lines)))
 }

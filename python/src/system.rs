@@ -1,7 +1,7 @@
 //! Quasi-static lines on one body: their wrench and its stiffness at many poses.
 
 use crate::catenary::Line;
-use crate::errors::engine_error;
+use crate::errors::{detached, engine_error};
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
@@ -98,7 +98,7 @@ impl System {
         };
         let poses: Vec<[f64; 6]> = poses.as_array().rows().into_iter().map(row).collect();
         let held: Vec<Result<Held, (usize, LineError)>> =
-            py.detach(|| poses.par_iter().with_min_len(16).map(|pose| self.hold(pose)).collect());
+            detached(py, || poses.par_iter().with_min_len(16).map(|pose| self.hold(pose)).collect())?;
         let named = |(at, held): (usize, Result<Held, (usize, LineError)>)| {
             held.map_err(|(line, error)| engine_error(py, format!("pose {at}, line {line}: {error}")))
         };

@@ -167,6 +167,7 @@ def test_session_is_of_one_thread_at_a_time(chain):
 def test_plots_pictures_and_films_are_shown_inline(chain, table):
     plot = chain.plot("Force", "Ten Top")
     assert plot._repr_svg_().startswith("<svg") and "Ten Top" in plot.text
+    assert "Ten Top" in chain.plot().text and "Crit. Seg" not in chain.plot().text
     picture = chain.picture()
     assert picture._repr_svg_().startswith("<svg") and "BUOY" in picture.text
     assert chain.picture("iso", angle=30.0).text != picture.text

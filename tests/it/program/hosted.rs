@@ -43,6 +43,10 @@ fn hosted_tables_hold_numbers_of_the_catenary() {
     assert!(compared > 5);
     assert!(text(kept).contains("Ten Top"));
     assert!(plot(kept, &["2".into(), "4".into()]).unwrap().starts_with("<svg"));
+    // without names: X, and the columns of the two units that come first behind it
+    let all = plot(kept, &[]).unwrap();
+    assert!(all.contains("Force (kN)") || all.contains("Horizontal: Force"));
+    assert!(all.contains("DF/DX") && !all.contains("Crit. Seg"));
     assert!(plot(kept, &["Tensoin".into()]).unwrap_err().to_string().contains("Tensoin"));
     // what is shown is said once: the next call has its own tables
     assert!(session.run("END\nEND", None).tables.is_empty());
