@@ -26,6 +26,9 @@
 //! # Ok::<(), windlass_base::band::UnusablePivot>(())
 //! ```
 
+/// Rows above a pivot that the unknowns of one node of a line and the next always reach.
+const ALWAYS_COUPLED: usize = 3;
+
 /// A pivot that cannot be divided by: zero or not finite, or not positive where it has to be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the pivot of row {} of the band matrix cannot be used", row + 1)]
@@ -97,6 +100,18 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
         let start = column + H - row;
         for (position, value) in self.rows[row][start..start + N].iter_mut().zip(values) {
             *position += value;
+        }
+    }
+
+    /// Writes a column: the entry of row `column - H + i` at place `centre - H + i`, whose neighbours are left as they are; rows that are
+    /// not there leave their places as well.
+    pub fn column<const N: usize>(&self, column: usize, centre: usize, entries: &mut [f64; N]) {
+        let first = column.saturating_sub(H);
+        let rows = self.rows.iter().enumerate().skip(first).take((column + H + 1).saturating_sub(first));
+        for (row, values) in rows {
+            if let (Some(entry), Some(value)) = (entries.get_mut(centre + row - column), values.get(column + H - row)) {
+                *entry = *value;
+            }
         }
     }
 
@@ -189,25 +204,36 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
     }
 
     /// Factors in place by the pivots that `usable` makes of those found: of a row and its pivot the one to divide by.
+    ///
+    /// The next pivot is kept at hand, as a processor waits for what it has only just stored.
     #[inline(always)]
     fn factor_by(&mut self, usable: impl Fn(usize, f64) -> Option<f64>) -> Result<usize, UnusablePivot> {
         let mut negative = 0;
+        let mut found = self.rows.last().map_or(1.0, |row| row[H]);
         for k in (0..self.rows.len()).rev() {
             let (head, tail) = self.rows.split_at_mut(k);
             let pivot_row = &mut tail[0];
-            let Some(pivot) = usable(k, pivot_row[H]) else {
+            let Some(pivot) = usable(k, found) else {
                 return Err(UnusablePivot { row: k });
             };
             negative += usize::from(pivot < 0.0);
             let inverse = 1.0 / pivot;
             pivot_row[H] = inverse;
             if let Some((_, near)) = head.split_last_chunk_mut::<H>() {
-                for d in 1..=H {
-                    eliminate::<H, S>(pivot_row, &mut near[H - d], d, inverse);
+                found = eliminate::<H, S>(pivot_row, &mut near[H - 1], 1, inverse);
+                for d in 2..=H {
+                    let row = &mut near[H - d];
+                    // what the band has room for and the nodes of a line do not couple
+                    if d <= ALWAYS_COUPLED || row[H + d] != 0.0 {
+                        eliminate::<H, S>(pivot_row, row, d, inverse);
+                    }
                 }
             } else {
                 for (d, row) in head.iter_mut().rev().enumerate() {
-                    eliminate::<H, S>(pivot_row, row, d + 1, inverse);
+                    let next = eliminate::<H, S>(pivot_row, row, d + 1, inverse);
+                    if d == 0 {
+                        found = next;
+                    }
                 }
             }
         }
@@ -234,14 +260,16 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
         near = [0.0; H];
         for (row, value) in self.rows.iter().zip(right.iter_mut()) {
             let mut sum = *value;
-            for j in (0..H).rev() {
+            for j in (1..H).rev() {
                 sum -= row[H - 1 - j] * near[j];
             }
+            // the value found last is divided by the pivot apart from the others, so that it is waited for once
+            let last = sum * row[H] - (row[H - 1] * row[H]) * near[0];
             for j in (1..H).rev() {
                 near[j] = near[j - 1];
             }
-            near[0] = sum * row[H];
-            *value = near[0];
+            near[0] = last;
+            *value = last;
         }
     }
 
@@ -273,14 +301,16 @@ impl<const H: usize, const S: usize> BandMatrix<H, S> {
     }
 }
 
-/// Takes the pivot row out of the row `d` above it.
+/// Takes the pivot row out of the row `d` above it; returns the diagonal of that row.
 #[inline(always)]
-fn eliminate<const H: usize, const S: usize>(pivot_row: &[f64; S], row: &mut [f64; S], d: usize, inverse: f64) {
+fn eliminate<const H: usize, const S: usize>(pivot_row: &[f64; S], row: &mut [f64; S], d: usize, inverse: f64) -> f64 {
     let factor = row[H + d] * inverse;
     row[H + d] = factor;
+    let diagonal = row[H] - factor * pivot_row[H - d];
     for j in 0..H {
         row[d + j] -= factor * pivot_row[j];
     }
+    diagonal
 }
 
 #[cfg(test)]

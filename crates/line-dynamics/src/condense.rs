@@ -185,7 +185,12 @@ impl EndCondensation {
         };
         let (right, _) = self.adjoint.as_chunks_mut::<N>();
         let right = &mut right[..size];
-        right.fill([0.0; N]);
+        // rows beside end A, where nothing is asked or answered beyond them
+        let beside = 2 * stride + MAX_BANDWIDTH / 2;
+        let wanted = if sides[1] { size } else { beside };
+        let filled = if side == 0 { beside } else { size };
+        // beyond these rows nothing is read
+        right[..size.min(filled.max(wanted) + MAX_BANDWIDTH)].fill([0.0; N]);
         if known[side] {
             work.visit_end_rows(side, |i, column, value| right[column][i] = -value);
         }
@@ -198,10 +203,7 @@ impl EndCondensation {
         }
         // the moment feels the place of a held end itself
         let own = first_rows.map(|first| [0, 1, 2].map(|axis| right[first + axis]));
-        // rows beside end A, where nothing is asked or answered beyond them
-        let beside = 2 * stride + MAX_BANDWIDTH / 2;
-        let wanted = if sides[1] { size } else { beside };
-        work.solve_transposed(right, (if side == 0 { beside } else { size }, wanted));
+        work.solve_transposed(right, (filled, wanted));
         // what an entry of R_p does: on an inner row through the solution, on a row of this end as its own force
         let add = |column: &mut [f64; N], row: usize, entry: f64| match end_of(row) {
             None => {

@@ -3,10 +3,11 @@
 //! The loops over them run in the widest vectors the machine has (multiversion); no product is contracted with its sum, so that every
 //! machine comes to the same digits.
 
+use super::element_list::ElementLanes;
 use super::mesh::Rod;
 use super::system::Weights;
 use super::tension::TubeAreas;
-use super::trial::Trial;
+use super::trial::{Softening, Trial};
 use multiversion::multiversion;
 use std::ops::Range;
 
@@ -26,6 +27,7 @@ type NodeVectors = [[f64; BATCH_NODES]; 3];
 /// Input of a batch, a lane for each element or node.
 #[derive(Clone, Debug, Default)]
 struct BatchInput {
+    elements: ElementLanes,
     x: NodeVectors,
     v: NodeVectors,
     a: NodeVectors,
@@ -35,22 +37,23 @@ struct BatchInput {
     density: [f64; BATCH_NODES],
     surface: [f64; BATCH_NODES],
     head: [f64; BATCH_NODES],
-    rest: Lanes,
-    rate: Lanes,
-    ea: Lanes,
     /// Strain by warmth, free of tension.
     free: Lanes,
     /// What tension has of the pressure outside (m2), and of that inside at the datum of heights (N) and by the way down (N/m): none but of tubes.
     outside: Lanes,
     inside: Lanes,
     contents: Lanes,
-    damping: Lanes,
-    /// One of an element that resists being shortened, else zero.
-    pushes: Lanes,
-    mass: Lanes,
-    volume: Lanes,
-    added: [Lanes; 2],
-    drag: [Lanes; 2],
+}
+
+/// What is the same for all elements of a batch.
+struct BatchTerms {
+    weights: Weights,
+    gravity: f64,
+    axial_stiffness_scale: f64,
+    /// Share of their own resistance to being shortened, and what all have of it.
+    pushes: [f64; 2],
+    /// One where elements grow at their rate, else zero.
+    winding: f64,
 }
 
 /// Residual of the elements on their first and second nodes, and its tangent by rows: of a node by itself, then by the other node.
@@ -99,32 +102,35 @@ impl ElementBatch {
     ) {
         self.gather_input(rod, trial, gravity, (first, count));
         let ElementBatch { asked, shares } = self;
+        let Softening { tension_only, axial_stiffness_scale } = trial.softening;
+        let pushes = match (tension_only, trial.resists_shortening()) {
+            (true, _) => [0.0, 0.0],
+            (false, true) => [0.0, 1.0],
+            (false, false) => [1.0, 0.0],
+        };
+        let winding = if trial.is_static { 0.0 } else { 1.0 };
+        let how = BatchTerms { weights, gravity, axial_stiffness_scale, pushes, winding };
         if TANGENT {
-            add_forces_and_tangents(asked, (weights, gravity, trial.softening.axial_stiffness_scale), shares);
+            add_forces_and_tangents(asked, &how, shares);
         } else {
-            add_forces(asked, (weights, gravity, trial.softening.axial_stiffness_scale), shares);
+            add_forces(asked, &how, shares);
         }
     }
 
     /// Gathers the input; lanes beyond the last element keep their old values and are not used.
     fn gather_input(&mut self, rod: &Rod, trial: &Trial, gravity: f64, (first, count): (usize, usize)) {
         let asked = &mut self.asked;
-        for (n, element) in rod.elements[first..first + count].iter().enumerate().take(BATCH_SIZE) {
-            asked.rest[n] = element.rest;
-            asked.rate[n] = if trial.is_static { 0.0 } else { element.rate };
-            asked.ea[n] = element.ea;
-            let tube = rod.segments[element.segment].tube.as_ref();
-            let TubeAreas { free_strain: free, outside, inside, contents } =
-                tube.map_or(TubeAreas::default(), |t| TubeAreas::from_tube(t, gravity, trial.origin.z));
-            (asked.free[n], asked.outside[n]) = (free, outside);
-            (asked.inside[n], asked.contents[n]) = (inside, contents);
-            asked.damping[n] = element.damping;
-            asked.pushes[n] = f64::from(u8::from(trial.tension_options(element).compression));
-            asked.mass[n] = element.mass;
-            asked.volume[n] = element.volume;
-            for side in 0..2 {
-                asked.added[side][n] = element.added[side];
-                asked.drag[side][n] = element.drag[side];
+        rod.elements.copy_lanes(first, &mut asked.elements);
+        for lanes in [&mut asked.free, &mut asked.outside, &mut asked.inside, &mut asked.contents] {
+            *lanes = [0.0; BATCH_SIZE];
+        }
+        if rod.segments.iter().any(|s| s.tube.is_some()) {
+            for (n, element) in rod.elements[first..first + count].iter().enumerate().take(BATCH_SIZE) {
+                let tube = rod.segments[element.segment].tube.as_ref();
+                let TubeAreas { free_strain: free, outside, inside, contents } =
+                    tube.map_or(TubeAreas::default(), |t| TubeAreas::from_tube(t, gravity, trial.origin.z));
+                (asked.free[n], asked.outside[n]) = (free, outside);
+                (asked.inside[n], asked.contents[n]) = (inside, contents);
             }
         }
         let nodes = first..first + count + 1;
@@ -145,20 +151,16 @@ impl ElementBatch {
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn add_forces_and_tangents(
-    asked: &BatchInput,
-    (weights, gravity, ease): (Weights, f64, f64),
-    shares: &mut BatchTangent,
-) {
+fn add_forces_and_tangents(asked: &BatchInput, how: &BatchTerms, shares: &mut BatchTangent) {
     for n in 0..BATCH_SIZE {
-        assemble_lane::<true>(asked, n, (weights, gravity, ease), shares);
+        assemble_lane::<true>(asked, n, how, shares);
     }
 }
 
 #[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn add_forces(asked: &BatchInput, (weights, gravity, ease): (Weights, f64, f64), shares: &mut BatchTangent) {
+fn add_forces(asked: &BatchInput, how: &BatchTerms, shares: &mut BatchTangent) {
     for n in 0..BATCH_SIZE {
-        assemble_lane::<false>(asked, n, (weights, gravity, ease), shares);
+        assemble_lane::<false>(asked, n, how, shares);
     }
 }
 
@@ -174,22 +176,19 @@ fn map_lanes(of: impl Fn(usize) -> f64) -> [f64; 3] {
 
 /// The element of a number: without a branch, so that all of them go side by side.
 #[inline(always)]
-fn assemble_lane<const TANGENT: bool>(
-    asked: &BatchInput,
-    n: usize,
-    (Weights { k, c, m }, gravity, ease): (Weights, f64, f64),
-    shares: &mut BatchTangent,
-) {
+fn assemble_lane<const TANGENT: bool>(asked: &BatchInput, n: usize, how: &BatchTerms, shares: &mut BatchTangent) {
+    let BatchTerms { weights: Weights { k, c, .. }, gravity, axial_stiffness_scale: ease, pushes: [own, all], winding } =
+        *how;
     let d = map_lanes(|i| asked.x[i][n + 1] - asked.x[i][n]);
     let dv = map_lanes(|i| asked.v[i][n + 1] - asked.v[i][n]);
-    let rest = asked.rest[n];
+    let rest = asked.elements.rest[n];
     // nodes of a slack heap may meet: their element then has no direction, and no tension to need one
     let (length, least) = (dot(d, d).sqrt(), 1e-9 * rest);
     let length = if length > least { length } else { least };
     let inverse = 1.0 / length;
     let t = map_lanes(|i| d[i] * inverse);
     let inverse_rest = 1.0 / rest;
-    let (stretch, let_out) = (length * inverse_rest, asked.rate[n]);
+    let (stretch, let_out) = (length * inverse_rest, asked.elements.rate[n] * winding);
     let faster = dot(t, dv);
     let rate = (faster - stretch * let_out) * inverse_rest;
     let strain = stretch - 1.0 - asked.free[n];
@@ -198,10 +197,10 @@ fn assemble_lane<const TANGENT: bool>(
     let pressed = 0.5 * (first.0 + second.0) * asked.outside[n] - (asked.inside[n] - asked.contents[n] * height);
     let by_height = 0.5 * (first.1 + second.1) * asked.outside[n] + asked.contents[n];
     // a line that does not resist being shortened has neither stiffness nor damping while it is, and its damper does not push
-    let still = asked.ea[n] * ease * strain + pressed;
-    let whole = still + asked.damping[n] * rate;
-    let there = if still < 0.0 || whole < 0.0 { asked.pushes[n] } else { 1.0 };
-    let (by_strain, by_rate) = (asked.ea[n] * ease * there, asked.damping[n] * there);
+    let still = asked.elements.ea[n] * ease * strain + pressed;
+    let whole = still + asked.elements.damping[n] * rate;
+    let there = if still < 0.0 || whole < 0.0 { asked.elements.pushes[n] * own + all } else { 1.0 };
+    let (by_strain, by_rate) = (asked.elements.ea[n] * ease * there, asked.elements.damping[n] * there);
     let value = whole * there;
     let lifted = 0.5 * k * by_height * there;
     let geometric = k * value * inverse;
@@ -211,8 +210,8 @@ fn assemble_lane<const TANGENT: bool>(
     let stiff = map_lanes(|i| t[i] * along + (dv[i] - t[i] * faster) * swung);
 
     let made = AxialState { t, inverse, value, geometric, stiff, lifted };
-    assemble_half::<TANGENT, 0>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
-    assemble_half::<TANGENT, 1>(asked, n, (Weights { k, c, m }, gravity), &made, shares);
+    assemble_half::<TANGENT, 0>(asked, n, how, &made, shares);
+    assemble_half::<TANGENT, 1>(asked, n, how, &made, shares);
 }
 
 /// Pressure (Pa) in the water about a node at a height, and its slope: as [`FluidState::pressure`](super::environment::FluidState::pressure).
@@ -240,11 +239,11 @@ struct AxialState {
 fn assemble_half<const TANGENT: bool, const SECOND: usize>(
     asked: &BatchInput,
     n: usize,
-    (Weights { k, c, m }, gravity): (Weights, f64),
+    &BatchTerms { weights: Weights { k, c, m }, gravity, .. }: &BatchTerms,
     &AxialState { t, inverse, value, geometric, stiff, lifted }: &AxialState,
     shares: &mut BatchTangent,
 ) {
-    let (node, mass, volume) = (n + SECOND, asked.mass[n], asked.volume[n]);
+    let (node, mass, volume) = (n + SECOND, asked.elements.mass[n], asked.elements.volume[n]);
     let sign = if SECOND == 0 { 1.0 } else { -1.0 };
     let density = asked.density[node];
     let u = map_lanes(|i| asked.v[i][node] - asked.flow[i][node]);
@@ -252,9 +251,10 @@ fn assemble_half<const TANGENT: bool, const SECOND: usize>(
     let flow = dot(u, t);
     let across = map_lanes(|i| u[i] - t[i] * flow);
     let speed = dot(across, across).sqrt();
-    let per_speed = density * asked.drag[0][n];
-    let (normal, tangential) = (per_speed * speed, density * asked.drag[1][n] * flow.abs());
-    let (own, more) = (density * asked.added[0][n], density * (asked.added[1][n] - asked.added[0][n]));
+    let per_speed = density * asked.elements.drag[0][n];
+    let (normal, tangential) = (per_speed * speed, density * asked.elements.drag[1][n] * flow.abs());
+    let (own, more) =
+        (density * asked.elements.added[0][n], density * (asked.elements.added[1][n] - asked.elements.added[0][n]));
     let displaced = density * volume;
     let q_along = dot(q, t);
     let pulled = tangential * flow + more * q_along;

@@ -37,6 +37,7 @@ mod contact;
 mod continuation;
 mod coupled;
 mod element_batch;
+mod element_list;
 mod ends;
 mod energy_balance;
 mod environment;

@@ -1,5 +1,6 @@
 //! A rod cut into elements.
 
+use super::element_list::ElementList;
 use super::error::RodError;
 use super::section::{Attachment, RodSegment, TensionLaw};
 use super::spatial::transport_director;
@@ -97,7 +98,7 @@ impl RodElement {
 pub struct Rod {
     pub(super) name: String,
     pub(super) segments: Vec<RodSegment>,
-    pub(super) elements: Vec<RodElement>,
+    pub(super) elements: ElementList,
     pub(super) attachments: Vec<Attachment>,
     /// The shape free of load, where it is not straight.
     pub(super) natural: Option<UnloadedShape>,
@@ -159,6 +160,7 @@ impl Rod {
                 )));
             }
         }
+        let elements = ElementList::new(elements);
         Ok(Rod { name: name.to_string(), segments, elements, attachments, natural: None })
     }
 

@@ -284,7 +284,7 @@ impl PseudoTransient<'_> {
             square.sqrt() / element.rest
         };
         let turns = self.system.change.chunks_exact(stride).flat_map(|node| node[3..].iter().map(|turn| turn.abs()));
-        pairs.zip(&rod.elements).map(edge).chain(turns).fold(0.0, f64::max)
+        pairs.zip(rod.elements.iter()).map(edge).chain(turns).fold(0.0, f64::max)
     }
 
     /// Convergence tolerance of the residual (N): a share of the largest force in the rod, or the force that rounding of positions makes

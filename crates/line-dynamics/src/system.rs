@@ -63,12 +63,16 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
         }
     }
 
-    /// Adds so many elements that were taken at once, from the first on.
+    /// Adds so many elements that were taken at once, from the first on: node by node, so that every row is written once.
     pub fn shares<const TANGENT: bool>(&mut self, first: usize, count: usize) {
-        let ElementBatch { shares, .. } = &self.batch;
-        for n in 0..count.min(BATCH_SIZE) {
-            add_share::<TANGENT, W, H, S>((&mut self.band, &mut self.residual), (first + n, n), shares);
+        let RodSystem { band, residual, batch, .. } = self;
+        let shares = &batch.shares;
+        let count = count.min(BATCH_SIZE);
+        add_node::<TANGENT, W, H, S>((&mut *band, &mut *residual), first, (None, Some(0)), shares);
+        for n in 1..count {
+            add_inner_node::<TANGENT, W, H, S>((&mut *band, &mut *residual), first + n, n, shares);
         }
+        add_node::<TANGENT, W, H, S>((band, residual), first + count, (count.checked_sub(1), None), shares);
     }
 
     /// Unknowns a node.
@@ -163,24 +167,58 @@ impl<const W: usize, const H: usize, const S: usize> RodSystem<W, H, S> {
     }
 }
 
-/// Adds an element of a number, one of those taken at once.
+/// A part of a node's row of a batch: three numbers of one lane.
 #[inline(always)]
-fn add_share<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+fn three(of: &[[f64; BATCH_SIZE]; 3], lane: usize) -> [f64; 3] {
+    [of[0][lane], of[1][lane], of[2][lane]]
+}
+
+/// Adds to a node what the elements before and after it have there, by their lanes.
+#[inline(always)]
+fn add_node<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
     (band, residual): (&mut BandMatrix<H, S>, &mut [f64]),
-    (element, n): (usize, usize),
+    node: usize,
+    (before, after): (Option<usize>, Option<usize>),
     shares: &BatchTangent,
 ) {
-    let three = |of: &[[f64; BATCH_SIZE]; 3]| [of[0][n], of[1][n], of[2][n]];
-    for (second, force) in shares.force.iter().enumerate() {
-        let (node, other) = if second == 0 { (element, element + 1) } else { (element + 1, element) };
-        for (residual, by) in residual[W * node..W * node + 3].iter_mut().zip(three(force)) {
+    for (lane, side, other) in
+        [before.map(|n| (n, 1, node.wrapping_sub(1))), after.map(|n| (n, 0, node + 1))].into_iter().flatten()
+    {
+        for (residual, by) in residual[W * node..W * node + 3].iter_mut().zip(three(&shares.force[side], lane)) {
             *residual += by;
         }
         if TANGENT {
             for i in 0..3 {
-                band.add_to_row(W * node + i, W * node, three(&shares.itself[second][i]));
-                band.add_to_row(W * node + i, W * other, three(&shares.other[second][i]));
+                band.add_to_row(W * node + i, W * node, three(&shares.itself[side][i], lane));
+                band.add_to_row(W * node + i, W * other, three(&shares.other[side][i], lane));
             }
+        }
+    }
+}
+
+/// Adds to a node between two elements of a batch what both have there; `n` is the lane of the one after it.
+#[inline(always)]
+fn add_inner_node<const TANGENT: bool, const W: usize, const H: usize, const S: usize>(
+    (band, residual): (&mut BandMatrix<H, S>, &mut [f64]),
+    node: usize,
+    n: usize,
+    shares: &BatchTangent,
+) {
+    if W > 3 {
+        return add_node::<TANGENT, W, H, S>((band, residual), node, (Some(n - 1), Some(n)), shares);
+    }
+    let [after, before] = &shares.force;
+    let (a, b) = (three(before, n - 1), three(after, n));
+    let r = &mut residual[W * node..W * node + 3];
+    r[0] += a[0] + b[0];
+    r[1] += a[1] + b[1];
+    r[2] += a[2] + b[2];
+    if TANGENT {
+        for i in 0..3 {
+            let (a, b) = (three(&shares.itself[1][i], n - 1), three(&shares.itself[0][i], n));
+            let (x, y) = (three(&shares.other[1][i], n - 1), three(&shares.other[0][i], n));
+            let row = [x[0], x[1], x[2], a[0] + b[0], a[1] + b[1], a[2] + b[2], y[0], y[1], y[2]];
+            band.add_to_row(W * node + i, W * (node - 1), row);
         }
     }
 }

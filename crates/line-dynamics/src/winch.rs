@@ -20,9 +20,11 @@ impl Rod {
             .segments
             .get(segment)
             .map(|properties| RodElement { rate, ..RodElement::new(properties, segment, length) });
-        if let (Some(position), Some(made)) = (self.elements.get_mut(element), made) {
-            *position = made;
-        }
+        self.elements.change(|elements| {
+            if let (Some(position), Some(made)) = (elements.get_mut(element), made) {
+                *position = made;
+            }
+        });
         Ok(())
     }
 
@@ -47,7 +49,9 @@ impl Rod {
         } else {
             [half.rate, half.rate]
         };
-        self.elements.splice(element..=element, rates.map(|rate| RodElement { rate, ..half.clone() }));
+        self.elements.change(|elements| {
+            elements.splice(element..=element, rates.map(|rate| RodElement { rate, ..half.clone() }));
+        });
         if let Some(strain) = state.yielded.get(element).copied() {
             state.yielded.insert(element, strain);
         }
@@ -88,7 +92,9 @@ impl Rod {
             rate: first.rate + second.rate,
             ..self.scaled_element(&second, (first.rest + second.rest) / second.rest)
         };
-        self.elements.splice(element..=element + 1, [joined]);
+        self.elements.change(|elements| {
+            elements.splice(element..=element + 1, [joined]);
+        });
         for list in [&mut state.position, &mut state.velocity, &mut state.acceleration, &mut state.averaged] {
             list.remove(element + 1);
         }

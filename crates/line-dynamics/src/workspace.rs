@@ -111,13 +111,8 @@ impl Workspace {
 
     /// A column of the matrix, its diagonal in the middle place.
     pub fn column(&self, column: usize, entries: &mut [f64; MAX_BANDWIDTH]) {
-        each!(self, system => {
-            let size = system.residual.len();
-            for (i, entry) in entries.iter_mut().enumerate() {
-                let row = (column + i).checked_sub(MAX_BANDWIDTH / 2).filter(|r| *r < size);
-                *entry = row.map_or(0.0, |r| system.band.get(r, column));
-            }
-        });
+        *entries = [0.0; MAX_BANDWIDTH];
+        each!(self, system => system.band.column(column, MAX_BANDWIDTH / 2, entries));
     }
 
     /// Visits every entry of the stored rows of an end: row of the three, column, value.

@@ -60,7 +60,7 @@ fn whole_rod_tangent_matches_residual_finite_difference() {
     let world = LineEnvironment { bottom: Some((&bottom, ground)), slam: true, ..LineEnvironment::new(&fluid, 9.81) };
     for bending in [0.0, 4e5] {
         let (mut rod, state) = everything(bending);
-        rod.elements[2].rate = 0.3;
+        rod.elements.change(|elements| elements[2].rate = 0.3);
         let mut solver = RodSolver::new(&rod, RodSettings::default());
         solver.trial.ends[0] = RodEnd::FREE.with_clamp(Vector3::new(0.8, 0.3, 0.5));
         solver.trial.ends[1] = RodEnd { rotation: Some(2e5), ..RodEnd::FREE.with_clamp(Vector3::new(0.5, -0.3, 0.5)) };
@@ -150,10 +150,10 @@ fn batched_elements_match_single_elements() {
             state.acceleration[i] = Vector3::new((s * 1.9).cos(), (s * 0.4).sin(), (s * 1.3).cos());
         }
         state.velocity[4] = fluid.0.velocity;
-        rod.elements[2].rate = 0.3;
+        rod.elements.change(|elements| elements[2].rate = 0.3);
         let weights = Weights { k: 1.0, c: 30.0, m: 900.0 };
         let mut made = [true, false].map(|plain| {
-            rod.elements.iter_mut().for_each(|e| e.plain = plain);
+            rod.elements.change(|elements| elements.iter_mut().for_each(|e| e.plain = plain));
             let mut solver = RodSolver::new(&rod, RodSettings::default());
             solver.trial.x.copy_from_slice(&state.position);
             solver.trial.v.copy_from_slice(&state.velocity);
@@ -179,7 +179,7 @@ fn batched_elements_match_single_elements() {
             }
         }
         for (solver, plain) in made.iter_mut().zip([true, false]) {
-            rod.elements.iter_mut().for_each(|e| e.plain = plain);
+            rod.elements.change(|elements| elements.iter_mut().for_each(|e| e.plain = plain));
             solver.system.work.forces(&rod, &world, &solver.trial);
         }
         let [at_once, alone] = &made;
