@@ -9,7 +9,7 @@ use crate::commands::model::element::build_elements;
 use crate::commands::model::{hydrodynamics, pgen, piece};
 use crate::commands::output::buildg;
 use crate::commands::settings::device::existing;
-use crate::commands::{Call, Command, Effect, INMODEL_FILE, Job, Menu};
+use crate::commands::{Call, Command, DeckFormat, Effect, INMODEL_FILE, Job, Menu};
 use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -17,6 +17,7 @@ use windlass_language::record::Word;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 use windlass_language::token::TokenKind as Lex;
+use windlass_moordyn::records::LineModel;
 
 /// INMODEL.
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };
@@ -34,15 +35,29 @@ const AQWA: OptionSpec = OptionSpec::new(
 )
 .owner(Owner::Ours);
 
+const MOORDYN: OptionSpec = OptionSpec::new(
+    "-MOORDYN",
+    &[ValueSpec::new("FILE", Kind::File, "the deck; looked for where it says, then beside the script")],
+    "reads the model of a MoorDyn deck",
+)
+.owner(Owner::Ours);
+const STATIC: OptionSpec = OptionSpec::new("-STATIC", &[], "reads the lines of a MoorDyn deck as quasi-static ones")
+    .default("as dynamic lines of NumSegs elements")
+    .owner(Owner::Ours);
+
 static INMODEL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::UnlessFile(&menu::INMODEL),
     menus: &[&menu::MAIN],
-    options: &[AQWA],
+    options: &[AQWA, MOORDYN, STATIC],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
              AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
              the ground, *N9010, its tethers and lines connectors T1, L1 .. and its sea the environment in force; a file of INMODEL that is a deck is read so by itself. \
-             `windlass NAME.dat` also runs it, and writes its records to NAME.cif in the folder of answers.",
+             `windlass NAME.dat` also runs it, and writes its records to NAME.cif in the folder of answers. -MOORDYN reads a deck of MoorDyn \
+             2 or 1, or of MoorPy: fixed points become points *P1 .. of the ground, coupled ones points of a body VESSEL, free ones junctions P3 .., \
+             bodies BODY1 .., lines connectors L1 .. that begin at the fairlead (MoorDyn's end B), and depth, density and g defaults and the environment \
+             in force. VESSEL and coupled bodies stand still until PRESCRIBE moves them. A line is a dynamic one of class ROD with NumSegs elements; with \
+             -STATIC it is a B_CAT to an anchor on the seabed, else an H_CAT. A load that is not read is an error at its word.",
     example: "INMODEL\n&DESCRIBE BODY TBRG\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 500\nEND",
     ..CommandSpec::new("INMODEL", "reads the model")
 };
@@ -106,9 +121,24 @@ fn model_file(job: &Job) -> Option<PathBuf> {
 }
 
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    if let Some(value) = call.args.option(&AQWA).and_then(|given| given.values.first()) {
+    let lines = if call.args.has(&STATIC) { LineModel::Static } else { LineModel::Dynamic };
+    let mut decks: Vec<Effect> = Vec::new();
+    for (option, format) in [(&AQWA, DeckFormat::Aqwa), (&MOORDYN, DeckFormat::MoorDyn(lines))] {
+        let Some(value) = call.args.option(option).and_then(|given| given.values.first()) else { continue };
+        if !decks.is_empty() {
+            return Err(
+                Diagnostic::error("INMODEL reads one deck", value.span).help("read the other by another INMODEL")
+            );
+        }
         let name = value.word().unwrap_or_default();
-        return Ok(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)? });
+        decks.push(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)?, format });
+    }
+    if call.args.has(&STATIC) && !call.args.has(&MOORDYN) {
+        let error = Diagnostic::error("-STATIC says how the lines of a MoorDyn deck are read", call.args.span);
+        return Err(error.help("write INMODEL -MOORDYN FILE -STATIC"));
+    }
+    if let Some(deck) = decks.pop() {
+        return Ok(deck);
     }
     let found = model_file(job);
     if let Some(path) = found.as_ref().filter(|p| !p.exists()) {

@@ -62,6 +62,7 @@ use windlass_base::values::Args;
 use windlass_language::record::{Record, Word};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, MenuSpec};
+use windlass_moordyn::records::LineModel;
 
 /// A record on its way to a handler.
 pub struct Call<'a> {
@@ -94,12 +95,14 @@ pub enum Effect {
         /// Its records.
         text: &'static str,
     },
-    /// Read the model of an AQWA deck next.
+    /// Read the model of a deck next.
     Deck {
         /// Name for messages.
         name: String,
         /// Where it is.
         path: PathBuf,
+        /// Whose deck it is.
+        format: DeckFormat,
     },
     /// End the job.
     Finish,
@@ -113,6 +116,15 @@ pub enum Effect {
 
 /// Tag of a file that is simply inserted.
 pub const PLAIN: u32 = 0;
+/// Whose deck INMODEL reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DeckFormat {
+    /// AQWA's card images.
+    Aqwa,
+    /// MoorDyn's tables, with how their lines are read.
+    MoorDyn(LineModel),
+}
+
 /// Tag of the model file INMODEL reads; its end closes the menu.
 pub const INMODEL_FILE: u32 = 1;
 /// Tag of the job's own script.

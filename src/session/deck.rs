@@ -1,4 +1,4 @@
-//! AQWA decks: read, listed, and run as the records they amount to.
+//! Decks of AQWA and MoorDyn: read, listed, and run as the records they amount to.
 
 use super::{Session, read_text};
 use crate::commands::{DECK_HEAD, PLAIN, SCRIPT, existing};
@@ -15,6 +15,26 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::Sea;
 use windlass_language::source::Text;
+use windlass_moordyn::records::LineModel;
+
+/// Records made of a deck, with the cards or rows they are made of.
+#[derive(Clone, Debug)]
+pub(super) struct DeckRecords {
+    text: String,
+    /// From which byte on the text is made of which card or row: its name and place, in order.
+    origins: Vec<(usize, String, Span)>,
+    /// `card` or `row`.
+    unit: &'static str,
+}
+
+impl DeckRecords {
+    /// The card or row that a byte of the text is made of; none before the first record of a deck.
+    fn origin(&self, byte: usize) -> Option<(&str, Span)> {
+        let behind = self.origins.partition_point(|(at, _, _)| *at <= byte);
+        let origin = behind.checked_sub(1).and_then(|index| self.origins.get(index));
+        origin.map(|(_, name, span)| (name.as_str(), *span))
+    }
+}
 
 impl Session {
     /// Opens a text as the job: an AQWA deck as the records it amounts to, anything else as a script.
@@ -57,32 +77,68 @@ impl Session {
         self.open_records(&named, records.model_alone(), PLAIN, Some(span));
     }
 
-    /// Reads the records of a deck next; what is said of them later is said of the cards they are made of.
+    /// Reads the model of a MoorDyn deck next.
+    pub(super) fn insert_moordyn(&mut self, name: &str, text: Text, lines: LineModel, span: Span) {
+        let id = self.interpreter.sources.add(name, text.clone(), 1);
+        let reading = windlass_moordyn::read(text.as_str(), id);
+        let is_failed = reading.is_failed();
+        for message in reading.messages {
+            self.report(message);
+        }
+        if is_failed {
+            return;
+        }
+        match windlass_moordyn::records::records(&reading.deck, lines) {
+            Ok(records) => {
+                for note in records.notes {
+                    self.report(note);
+                }
+                // the first points of a deck are in the ground
+                self.job.model.current_part = None;
+                let origins = records.origins.into_iter().map(|(at, origin)| (at, origin.row, origin.span)).collect();
+                let made = DeckRecords { text: records.text, origins, unit: "row" };
+                self.open_deck_records(&format!("records of {name}"), made, PLAIN, Some(span));
+            }
+            Err(list) => {
+                for message in list {
+                    self.report(message);
+                }
+            }
+        }
+    }
+
+    /// Reads the records of an AQWA deck next.
     fn open_records(&mut self, name: &str, records: WrittenRecords, tag: u32, span: Option<Span>) {
+        let origins = records.origins.into_iter().map(|(at, origin)| (at, origin.card, origin.span)).collect();
+        self.open_deck_records(name, DeckRecords { text: records.text, origins, unit: "card" }, tag, span);
+    }
+
+    /// Reads the records of a deck next; what is said of them later is said of the cards or rows they are made of.
+    fn open_deck_records(&mut self, name: &str, records: DeckRecords, tag: u32, span: Option<Span>) {
         match self.interpreter.open(name, records.text.clone(), tag, span) {
             Ok(id) => self.decks.push((id, records)),
             Err(error) => self.report(*error),
         }
     }
 
-    /// A message about a record of a deck as one about the card it is made of.
+    /// A message about a record of a deck as one about the card or row it is made of.
     pub(super) fn point_at_card(&self, mut said: Diagnostic) -> Diagnostic {
         let made_of = |span: Span| {
             let (_, records) = self.decks.iter().find(|(id, _)| *id == span.source)?;
             let byte = span.start as usize;
             let line = records.text.get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
-            Some((records.origin(byte)?, records.text.get(line..)?.lines().next()?))
+            Some((records.origin(byte)?, records.text.get(line..)?.lines().next()?, records.unit))
         };
-        if let Some((origin, record)) = said.span.and_then(made_of) {
-            said.message = format!("{}: {}", origin.card, said.message);
-            said.help
-                .push(format!("the card is read as the record `{}`", record.trim().trim_end_matches('\\').trim_end()));
-            said.span = Some(origin.span);
+        if let Some(((name, origin), record, unit)) = said.span.and_then(made_of) {
+            said.message = format!("{name}: {}", said.message);
+            let record = record.trim().trim_end_matches('\\').trim_end();
+            said.help.push(format!("the {unit} is read as the record `{record}`"));
+            said.span = Some(origin);
         }
         if let Some((span, _)) = &mut said.other
-            && let Some((origin, _)) = made_of(*span)
+            && let Some(((_, origin), _, _)) = made_of(*span)
         {
-            *span = origin.span;
+            *span = origin;
         }
         said
     }

@@ -15,12 +15,15 @@ pub use check_report::{CheckReport, CheckWatch};
 pub use reading::{RecordReadError, read_all, read_text};
 
 use self::consequences::RefusedRecords;
+use self::deck::DeckRecords;
 use self::named::{in_menu, plain_word, unknown_name_error};
 use self::script_check::ScriptCheck;
 use crate::commands::absent::{self, Absent};
 use crate::commands::count;
 use crate::commands::journal::Executed;
-use crate::commands::{self, Call, Command, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu};
+use crate::commands::{
+    self, Call, Command, DeckFormat, Effect, INMODEL_FILE, Job, Menu, PLAIN, SCRIPT, commands_of_menu,
+};
 use crate::report::output::Output;
 use crate::report::page;
 use crate::report::run_log::StoredRun;
@@ -81,8 +84,8 @@ pub struct Session {
     errors_at_prompt: i64,
     /// Errors of records that windlass does not have: they do not count toward the limit at which a run ends.
     errors_of_absent: i64,
-    /// Texts made of decks, with the cards they are made of.
-    decks: Vec<(SourceId, aqwa::WrittenRecords)>,
+    /// Texts made of decks, with the cards or rows they are made of.
+    decks: Vec<(SourceId, DeckRecords)>,
     /// The deck that is the job, until the pages before its motion are listed.
     listed: Option<Box<aqwa::Deck>>,
     /// What the record at hand was.
@@ -370,11 +373,12 @@ impl Session {
                 }
                 false
             }
-            Effect::Deck { name, path } => {
+            Effect::Deck { name, path, format } => {
                 self.job.output.folder.note_reading(&path);
-                match read_text(&path) {
-                    Ok(text) => self.insert_deck(&name, text, record.whole()),
-                    Err(error) => self.report(*Diagnostic::error(error.to_string(), record.whole())),
+                match (read_text(&path), format) {
+                    (Ok(text), DeckFormat::Aqwa) => self.insert_deck(&name, text, record.whole()),
+                    (Ok(text), DeckFormat::MoorDyn(lines)) => self.insert_moordyn(&name, text, lines, record.whole()),
+                    (Err(error), _) => self.report(*Diagnostic::error(error.to_string(), record.whole())),
                 }
                 false
             }

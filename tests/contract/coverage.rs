@@ -6,7 +6,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-const SOURCES: [&str; 5] = ["MOSES-FLEX", "MOSES-REF", "AQWA-CONN", "AQWA-TETHER", "AQWA-REF"];
+const SOURCES: [&str; 6] = ["MOSES-FLEX", "MOSES-REF", "AQWA-CONN", "AQWA-TETHER", "AQWA-REF", "MOORDYN-2"];
 const STATES: [&str; 3] = ["shown", "unshown", "refused"];
 /// Where the number of a test may come from.
 const MAKERS: [&str; 6] = ["closed form", "listing", "published case", "other program", "refusal", "rule"];

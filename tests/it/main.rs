@@ -85,6 +85,7 @@ mod floating {
     mod excursion;
     mod hydrostatics_menu;
     mod members;
+    mod moordyn_decks;
     mod moorpy_equilibrium;
     mod moses_blocks;
     mod moses_hulls;

@@ -1,7 +1,7 @@
 //! MoorDyn decks [MOORDYN-2], read into [`Deck`]: version 2, the section names and column orders of version 1, and the decks MoorPy
 //! [MOORPY-1] writes.
 //!
-//! Nothing is converted: values are in the units of the deck (SI, angles in degrees; z up from the mean water level). Every value has its
+//! [`records`] translates a deck into records of windlass. In a [`Deck`] nothing is converted: values are in the units of the deck (SI, angles in degrees; z up from the mean water level). Every value has its
 //! place. The columns of a table are taken by the names in its head, where all of them are known; else in the order of version 2, with a
 //! warning. MoorDyn 2 itself skips the names: of a table whose names stand in another order it reads other values, which is a warning too.
 //!
@@ -42,6 +42,7 @@
 mod checks;
 mod layout;
 pub mod options;
+pub mod records;
 mod row;
 mod section;
 pub mod tables;

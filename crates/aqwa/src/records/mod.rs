@@ -64,12 +64,6 @@ impl WrittenRecords {
         let origins = self.origins.split_off(position).into_iter().map(|(at, origin)| (at - from, origin)).collect();
         [self, WrittenRecords { text, origins, motion: 0 }]
     }
-
-    /// The card that a byte of the text is made of; none before the first record of a deck.
-    pub fn origin(&self, byte: usize) -> Option<&CardOrigin> {
-        let behind = self.origins.partition_point(|(at, _)| *at <= byte);
-        behind.checked_sub(1).and_then(|index| self.origins.get(index)).map(|(_, origin)| origin)
-    }
 }
 
 impl Records {
