@@ -15,6 +15,7 @@ use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_hydro::sea::Sea;
 use windlass_language::source::Text;
+use windlass_model::Model;
 use windlass_moordyn::records::LineModel;
 
 /// Records made of a deck, with the cards or rows they are made of.
@@ -90,6 +91,13 @@ impl Session {
         }
         match windlass_moordyn::records::records(&reading.deck, lines) {
             Ok(records) => {
+                let taken = self.names_taken(&records);
+                if !taken.is_empty() {
+                    for error in taken {
+                        self.report(error);
+                    }
+                    return;
+                }
                 for note in records.notes {
                     self.report(note);
                 }
@@ -105,6 +113,27 @@ impl Session {
                 }
             }
         }
+    }
+
+    /// Classes and points of a MoorDyn deck whose names the model has: their records would add a segment or move the point.
+    fn names_taken(&self, records: &windlass_moordyn::records::Records) -> Vec<Diagnostic> {
+        let model = &self.job.model;
+        let mut errors = Vec::new();
+        for (at, origin) in &records.origins {
+            let record = records.text.get(*at..).unwrap_or_default();
+            let name = record.split_whitespace().next().unwrap_or_default();
+            let (kind, is_taken) = match name.get(..1) {
+                Some("~") => ("class", model.classes.contains_key(&Model::key(name))),
+                Some("*") => ("point", model.points.contains_key(&Model::key(name))),
+                _ => continue,
+            };
+            if is_taken {
+                let error =
+                    Diagnostic::error(format!("{}: the model has a {kind} {name} already", origin.row), origin.span);
+                errors.push(*error.help("read the deck first, or DELETE what has its names"));
+            }
+        }
+        errors
     }
 
     /// Reads the records of an AQWA deck next.

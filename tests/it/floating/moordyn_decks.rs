@@ -133,3 +133,16 @@ fn driven_taut_leg_of_a_deck_has_the_forces_of_moordyn() {
     let room = 0.01 * (want_largest - want_least);
     assert!((largest - want_largest).abs() < room && (least - want_least).abs() < room, "{largest} {least}");
 }
+
+#[test]
+fn names_of_a_deck_that_the_model_has_are_refused() {
+    let (mut session, _screen, _folder) = common::session();
+    let deck = format!("INMODEL -MOORDYN \"{FOLDER}/grounded_chain.txt\"\n");
+    session.open("records", format!("MEDIT\n~CHAIN B_CAT 4 -LEN 100\n*P2 0 0 0\nEND\n{deck}"));
+    session.run();
+    assert_eq!(session.errors, 2, "{:?}", session.reports);
+    let said: Vec<&str> =
+        session.reports.iter().map(|r| r.message.as_str()).filter(|m| m.contains("already")).collect();
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(session.job.model.connectors.is_empty() && session.job.model.points.len() == 1);
+}
