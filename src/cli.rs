@@ -2,6 +2,8 @@
 
 use crate::commands::find_stored;
 use crate::commands::verdict::{OverBreak, Verdict};
+use crate::format_scripts::{self, FormatArgs, FormatEnd};
+use crate::lsp;
 use crate::manual;
 use crate::repl;
 use crate::report::files::JobFolder;
@@ -98,7 +100,7 @@ pub struct JobArgs {
 /// The script to check.
 #[derive(clap::Args, Debug, Default)]
 pub struct CheckArgs {
-    /// A script (model.cif)
+    /// A script (model.cif) or an AQWA deck (tow.dat)
     pub script: String,
     /// List the records by name, and those that do not act
     #[arg(long)]
@@ -131,7 +133,7 @@ pub enum Subcommand {
     /// Run a job; the word may be left out
     #[command(after_help = EXIT_CODES)]
     Run(JobArgs),
-    /// Check a script: what of it would act, stop a solve, be noted or refused; nothing is solved or written
+    /// Check a script or a deck: what of it would act, stop a solve, be noted or refused; nothing is solved or written
     Check(CheckArgs),
     /// Run a table of cases, a process each, into one table of results
     #[command(after_help = study::HELP)]
@@ -147,12 +149,11 @@ pub enum Subcommand {
     /// Makes a report of a job.
     #[command(hide = true)]
     Report(Words),
-    /// Formats scripts.
-    #[command(hide = true)]
-    Fmt(Words),
-    /// Serves an editor.
-    #[command(hide = true)]
-    Lsp(Words),
+    /// Format scripts: blanks, indentation and columns, never a word
+    #[command(after_help = format_scripts::HELP)]
+    Fmt(FormatArgs),
+    /// Serve an editor on standard input and output: errors as one types, help, completion, names
+    Lsp,
     /// Write the pages of the manual that are made from the declarations of records below DIR
     Manual(ManualArgs),
 }
@@ -180,7 +181,7 @@ impl Subcommand {
             Subcommand::Open(_) => "open",
             Subcommand::Report(_) => "report",
             Subcommand::Fmt(_) => "fmt",
-            Subcommand::Lsp(_) => "lsp",
+            Subcommand::Lsp => "lsp",
             Subcommand::Manual(_) => "manual",
         }
     }
@@ -201,6 +202,10 @@ enum UsageError {
     StudyFirst,
     #[error("open comes first, and takes a folder of answers: windlass open ROOT.ans")]
     OpenFirst,
+    #[error("fmt comes first, and takes scripts: windlass fmt --check model.cif")]
+    FormatFirst,
+    #[error("lsp comes first, and takes nothing: windlass lsp")]
+    ServerFirst,
     #[error("run needs a JOB: a script, a deck, or a ROOT{}", namesake("run"))]
     NoJob,
     #[error("a script and -c cannot be given together; if `{0}` is a record, it needs a -c of its own")]
@@ -268,6 +273,22 @@ pub fn run(cli: Cli) -> u8 {
                 StudyExit::Interrupted => INTERRUPTED,
             };
         }
+        Some(Subcommand::Fmt(args)) => {
+            return match format_scripts::run(args, &mut stdout().lock(), &complain) {
+                FormatEnd::Done => 0,
+                FormatEnd::Differs => 1,
+                FormatEnd::Failed => USAGE,
+            };
+        }
+        Some(Subcommand::Lsp) => {
+            if stdin().is_terminal() {
+                complain(
+                    "lsp is started by an editor: docs/editors.md says how; it speaks the Language Server Protocol",
+                );
+                return USAGE;
+            }
+            return lsp::serve(stdin(), stdout());
+        }
         Some(Subcommand::StudyCase) => return study::run_one(stdin().lock(), stdout().lock()),
         _ => {}
     }
@@ -321,6 +342,8 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "verify" => Err(UsageError::VerifyFirst),
         "open" => Err(UsageError::OpenFirst),
         "study" => Err(UsageError::StudyFirst),
+        "fmt" => Err(UsageError::FormatFirst),
+        "lsp" => Err(UsageError::ServerFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }
@@ -452,10 +475,6 @@ fn check_script(args: &CheckArgs) -> u8 {
             return USAGE;
         }
     };
-    if windlass_aqwa::is_deck(text.as_str()) {
-        complain(&format!("{} is an AQWA deck; its cards are checked where it is read: windlass {0}", args.script));
-        return USAGE;
-    }
     let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
     let folder = JobFolder::new(path.with_extension(""), None, false);
     let mut session = Session::new(Output::new(folder, Box::new(stdout()), Box::new(stderr()), colour));
@@ -471,7 +490,7 @@ fn check_script(args: &CheckArgs) -> u8 {
         }
         std::process::exit(code);
     });
-    session.open(&args.script, text);
+    session.open_to_check(&args.script, path, text);
     session.run();
     session.print_check(args.compat);
     session.job.output.flush();

@@ -329,7 +329,7 @@ fn describe_within(spec: &CommandSpec, lead: &str, units: UnitSystem, width: usi
 }
 
 /// The help of an option, a line for it and one for each of its values.
-fn option_lines(option: &OptionSpec, units: UnitSystem) -> Vec<String> {
+pub fn option_lines(option: &OptionSpec, units: UnitSystem) -> Vec<String> {
     let default = if option.default.is_empty() { String::new() } else { format!(" [default: {}]", option.default) };
     let effect = match option.effect {
         OptionEffect::Acts => "",
@@ -348,7 +348,8 @@ fn option_lines(option: &OptionSpec, units: UnitSystem) -> Vec<String> {
     lines
 }
 
-fn value_help(value: &ValueSpec, units: UnitSystem) -> String {
+/// The help of a value: its meaning, its unit, its default.
+pub fn value_help(value: &ValueSpec, units: UnitSystem) -> String {
     let default = match value.need {
         Need::Required => String::new(),
         Need::Optional(text) => format!(" [default: {text}]"),

@@ -47,7 +47,7 @@ use output::{
     add_column, animate, buildg, disposition, message, picture, plot, report_menu, result, series, statistic, store,
 };
 use post::{code_check, frequency_equations, frequency_posts, frequency_statistics, rep_select};
-pub(crate) use settings::device::existing;
+pub(crate) use settings::device::{existing, within_check};
 use settings::{accepted, device, history, name_list, parameter, units};
 pub use solve::lines::ADDED as COLUMNS_OF_LINES;
 pub use solve::stored::{StoredError, find_stored};

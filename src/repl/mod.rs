@@ -2,11 +2,12 @@
 
 mod assist;
 
+use crate::assist::Known;
 use crate::commands::undo::UndoStates;
 use crate::report::files::Question;
 use crate::report::pager::Pager;
 use crate::session::{Session, SessionEnd};
-use assist::{Assistant, Known};
+use assist::Assistant;
 use rustyline::config::Configurer;
 use rustyline::error::ReadlineError;
 use rustyline::history::FileHistory;

@@ -5,6 +5,7 @@ use indexmap::IndexMap;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 
@@ -13,11 +14,16 @@ const MAX_LISTED: usize = 100;
 
 /// What a record would do in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Judgement {
+pub enum Judgement {
+    /// It is done.
     Acts,
+    /// It is accepted, and the next solve that it matters to stops.
     Stops,
+    /// It is accepted, and changes nothing.
     Noted,
+    /// It is an error.
     Refused,
+    /// It hangs on results, which a check does not have.
     NotJudged,
     /// It is refused for want of what a refused record would have made.
     Follows,
@@ -33,11 +39,15 @@ const JUDGEMENTS: [(Judgement, &str, &str); 5] = [
 ];
 
 /// A record that does not act: its judgement, its place, and what is said of it.
-#[derive(Debug)]
-struct ListedRecord {
-    judgement: Judgement,
+#[derive(Clone, Debug)]
+pub struct ListedRecord {
+    /// What it would do.
+    pub judgement: Judgement,
+    /// Where it stands.
+    pub span: Span,
     position: String,
-    said: String,
+    /// What is said of it.
+    pub said: String,
 }
 
 /// The counts and the records of a check.
@@ -59,14 +69,24 @@ pub struct CheckReport {
 }
 
 impl CheckReport {
-    pub(super) fn add(&mut self, judgement: Judgement, name: String, position: String, said: String) {
+    pub(super) fn add(&mut self, judgement: Judgement, name: String, (span, position): (Span, String), said: String) {
         let counts = self.counts.entry(name).or_default();
         for (count, _) in counts.iter_mut().zip(JUDGEMENTS).filter(|(_, (listed, ..))| *listed == judgement) {
             *count += 1;
         }
         if judgement != Judgement::Acts && self.listed.len() < MAX_LISTED * JUDGEMENTS.len() {
-            self.listed.push(ListedRecord { judgement, position, said });
+            self.listed.push(ListedRecord { judgement, span, position, said });
         }
+    }
+
+    /// The records that do not act, in their order.
+    pub fn listed(&self) -> &[ListedRecord] {
+        &self.listed
+    }
+
+    /// Why the check ended before the script, where it did.
+    pub fn ended(&self) -> Option<&str> {
+        self.ended.as_deref()
     }
 
     fn totals(&self) -> [usize; JUDGEMENTS.len()] {

@@ -52,18 +52,18 @@ pub(super) struct RefusedRecords {
     body: Option<String>,
 }
 
-/// The name that a record would have defined.
-fn defined_name(words: &[Word]) -> Option<&str> {
+/// The word of a record that it defines a name by.
+pub fn defined_name(words: &[Word]) -> Option<&Word> {
     let [first, ..] = words else { return None };
     if matches!(first.kind, TokenKind::Point | TokenKind::Class | TokenKind::Selector) {
-        return Some(&first.text);
+        return Some(first);
     }
     let word = first.text.to_ascii_uppercase();
     let (_, index) = DEFINERS
         .iter()
         .find(|(name, _)| *name == word)
         .or_else(|| DEFINERS.iter().find(|(name, _)| word.len() >= SHORTEST_COMMAND && name.starts_with(&word)))?;
-    words.get(*index).filter(|named| named.kind != TokenKind::Option).map(|named| named.text.as_ref())
+    words.get(*index).filter(|named| named.kind != TokenKind::Option)
 }
 
 fn is_within(inner: Span, outer: Span) -> bool {
@@ -89,7 +89,7 @@ impl Session {
             return self.report_consequence(record.whole(), what, &why);
         }
         let position = self.interpreter.sources.location(record.whole());
-        self.keep_missing_names(defined_name(words), &position);
+        self.keep_missing_names(defined_name(words).map(|word| word.text.as_ref()), &position);
         if begins_body(words) {
             self.refused.body = Some(position);
         }

@@ -1,9 +1,9 @@
 //! Decks of AQWA and MoorDyn: read, listed, and run as the records they amount to.
 
-use super::{Session, read_text};
+use super::Session;
 use crate::commands::{DECK_HEAD, PLAIN, SCRIPT, existing};
 use crate::report::page;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use windlass_aqwa::job::Program;
 use windlass_aqwa::listing::ListingPart;
 use windlass_aqwa::waves::WaveDeck;
@@ -48,7 +48,7 @@ impl Session {
             self.open(name, text);
             return;
         }
-        let Some((deck, records)) = self.translate_deck(name, text, aqwa::records) else { return };
+        let Some((deck, records)) = self.translate_deck(name, None, text, aqwa::records) else { return };
         self.list(&deck);
         let script = records.script();
         let named = format!("{}.cif", stem(name));
@@ -64,14 +64,30 @@ impl Session {
         self.listed = Some(Box::new(deck));
     }
 
+    /// Opens a text that is only checked: of a deck the records it amounts to, unless a card of it is wrong.
+    pub fn open_to_check(&mut self, name: &str, path: &Path, text: impl Into<Text>) {
+        let text = text.into();
+        if aqwa::is_deck(text.as_str()) {
+            match self.translate_deck(name, Some(path), text, aqwa::records) {
+                Some((_, records)) => self.open_records(&format!("records of {name}"), records.script(), SCRIPT, None),
+                None => self.end_check("the deck has errors"),
+            }
+            return;
+        }
+        match self.interpreter.open(name, text, SCRIPT, None) {
+            Ok(id) => self.source_files.push((id, path.to_path_buf())),
+            Err(error) => self.report(*error),
+        }
+    }
+
     /// Reads the model of a deck next.
-    pub(super) fn insert_deck(&mut self, name: &str, text: Text, span: Span) {
+    pub(super) fn insert_deck(&mut self, name: &str, path: &Path, text: Text, span: Span) {
         if !aqwa::is_deck(text.as_str()) {
             let error = Diagnostic::error(format!("{name} is no deck of AQWA"), span);
             self.report(*error.help("a deck begins with a JOB line that names a program, as JOB HE01  DRIF"));
             return;
         }
-        let Some((_, records)) = self.translate_deck(name, text, aqwa::model_records) else { return };
+        let Some((_, records)) = self.translate_deck(name, Some(path), text, aqwa::model_records) else { return };
         // the first points of a deck are in the ground
         self.job.model.current_part = None;
         let named = format!("records of {name}");
@@ -79,8 +95,9 @@ impl Session {
     }
 
     /// Reads the model of a MoorDyn deck next.
-    pub(super) fn insert_moordyn(&mut self, name: &str, text: Text, lines: LineModel, span: Span) {
+    pub(super) fn insert_moordyn(&mut self, (name, path): (&str, &Path), text: Text, lines: LineModel, span: Span) {
         let id = self.interpreter.sources.add(name, text.clone(), 1);
+        self.source_files.push((id, path.to_path_buf()));
         let reading = windlass_moordyn::read(text.as_str(), id);
         let is_failed = reading.is_failed();
         for message in reading.messages {
@@ -150,22 +167,25 @@ impl Session {
         }
     }
 
+    /// The card or row that a place in a text is made of, by name and place, and the record that it became with the word for it; of a text
+    /// made of a deck.
+    pub(super) fn card_of(&self, span: Span) -> Option<((&str, Span), &str, &'static str)> {
+        let (_, records) = self.decks.iter().find(|(id, _)| *id == span.source)?;
+        let byte = span.start as usize;
+        let line = records.text.get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
+        Some((records.origin(byte)?, records.text.get(line..)?.lines().next()?, records.unit))
+    }
+
     /// A message about a record of a deck as one about the card or row it is made of.
     pub(super) fn point_at_card(&self, mut said: Diagnostic) -> Diagnostic {
-        let made_of = |span: Span| {
-            let (_, records) = self.decks.iter().find(|(id, _)| *id == span.source)?;
-            let byte = span.start as usize;
-            let line = records.text.get(..byte)?.rfind('\n').map_or(0, |at| at + 1);
-            Some((records.origin(byte)?, records.text.get(line..)?.lines().next()?, records.unit))
-        };
-        if let Some(((name, origin), record, unit)) = said.span.and_then(made_of) {
+        if let Some(((name, origin), record, unit)) = said.span.and_then(|span| self.card_of(span)) {
             said.message = format!("{name}: {}", said.message);
             let record = record.trim().trim_end_matches('\\').trim_end();
             said.help.push(format!("the {unit} is read as the record `{record}`"));
             said.span = Some(origin);
         }
         if let Some((span, _)) = &mut said.other
-            && let Some(((_, origin), _, _)) = made_of(*span)
+            && let Some(((_, origin), _, _)) = self.card_of(*span)
         {
             *span = origin;
         }
@@ -173,7 +193,7 @@ impl Session {
     }
 
     /// The deck of the stages before the first one of RESTART, where that names it: a file beside the job.
-    fn earlier_stages(&mut self, deck: &Deck) -> Outcome<Option<(String, Text)>> {
+    fn earlier_stages(&mut self, deck: &Deck) -> Outcome<Option<(String, PathBuf, Text)>> {
         let (start, _) = deck.job.stages;
         let name = &deck.job.database;
         if start <= 1 || name.is_empty() {
@@ -186,23 +206,26 @@ impl Session {
             Diagnostic::error(text, deck.job.span).help(help)
         })?;
         self.job.output.folder.note_reading(&path);
-        let text = read_text(&path).map_err(|error| Diagnostic::error(error.to_string(), deck.job.span))?;
-        Ok(Some((file, text)))
+        let text = self.unsaved.read(&path).map_err(|error| Diagnostic::error(error.to_string(), deck.job.span))?;
+        Ok(Some((file, path, text)))
     }
 
     /// A deck with its records; nothing when it has an error, which is reported.
     fn translate_deck(
         &mut self,
         name: &str,
+        path: Option<&Path>,
         text: Text,
         records: fn(&Deck) -> Result<Records, Vec<Diagnostic>>,
     ) -> Option<(Deck, Records)> {
         let id = self.interpreter.sources.add(name, text, 1);
+        self.source_files.extend(path.map(|path| (id, path.to_path_buf())));
         let reading = aqwa::read(&self.interpreter.sources, id);
         let reading = match self.earlier_stages(&reading.deck) {
             Ok(None) => reading,
-            Ok(Some((name, text))) => {
+            Ok(Some((name, path, text))) => {
                 let earlier = self.interpreter.sources.add(&name, text, 1);
+                self.source_files.push((earlier, path));
                 aqwa::read_after(&self.interpreter.sources, id, earlier)
             }
             Err(error) => {

@@ -11,8 +11,10 @@ mod reading;
 mod script_check;
 mod skipped_menu;
 
-pub use check_report::{CheckReport, CheckWatch};
-pub use reading::{RecordReadError, read_all, read_text};
+pub use check_report::{CheckReport, CheckWatch, Judgement, ListedRecord};
+pub use consequences::defined_name;
+pub use reading::{RecordReadError, UnsavedTexts, read_all, read_text};
+pub use script_check::CheckedRecord;
 
 use self::consequences::RefusedRecords;
 use self::deck::DeckRecords;
@@ -28,7 +30,7 @@ use crate::report::output::Output;
 use crate::report::page;
 use crate::report::run_log::StoredRun;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use windlass_aqwa as aqwa;
@@ -84,6 +86,10 @@ pub struct Session {
     errors_at_prompt: i64,
     /// Errors of records that windlass does not have: they do not count toward the limit at which a run ends.
     errors_of_absent: i64,
+    /// Texts that an editor has not saved yet, read in the place of their files.
+    pub unsaved: UnsavedTexts,
+    /// The files that were read as records, each with the text that it became.
+    pub source_files: Vec<(SourceId, PathBuf)>,
     /// Texts made of decks, with the cards or rows they are made of.
     decks: Vec<(SourceId, DeckRecords)>,
     /// The deck that is the job, until the pages before its motion are listed.
@@ -114,6 +120,8 @@ impl Session {
             reports: Vec::new(),
             errors_at_prompt: 0,
             errors_of_absent: 0,
+            unsaved: UnsavedTexts::default(),
+            source_files: Vec::new(),
             decks: Vec::new(),
             listed: None,
             executed: Executed::Nothing,
@@ -152,7 +160,7 @@ impl Session {
     /// # Errors
     /// A file that cannot be read.
     pub fn open_file(&mut self, name: &str, path: &Path) -> Result<(), RecordReadError> {
-        let text = read_text(path)?;
+        let text = self.unsaved.read(path)?;
         self.open(name, text);
         Ok(())
     }
@@ -375,9 +383,11 @@ impl Session {
             }
             Effect::Deck { name, path, format } => {
                 self.job.output.folder.note_reading(&path);
-                match (read_text(&path), format) {
-                    (Ok(text), DeckFormat::Aqwa) => self.insert_deck(&name, text, record.whole()),
-                    (Ok(text), DeckFormat::MoorDyn(lines)) => self.insert_moordyn(&name, text, lines, record.whole()),
+                match (self.unsaved.read(&path), format) {
+                    (Ok(text), DeckFormat::Aqwa) => self.insert_deck(&name, &path, text, record.whole()),
+                    (Ok(text), DeckFormat::MoorDyn(lines)) => {
+                        self.insert_moordyn((&name, &path), text, lines, record.whole());
+                    }
                     (Err(error), _) => self.report(*Diagnostic::error(error.to_string(), record.whole())),
                 }
                 false
@@ -410,21 +420,35 @@ impl Session {
 
     fn insert(&mut self, name: &str, path: &Path, tag: u32, span: Span) {
         self.job.output.folder.note_reading(path);
-        let read = read_text(path).map_err(|error| Diagnostic::error(error.to_string(), span));
+        let read = self
+            .within_check(path, span)
+            .and_then(|()| self.unsaved.read(path).map_err(|error| Diagnostic::error(error.to_string(), span)));
         if let Ok(text) = &read
             && tag == INMODEL_FILE
             && aqwa::is_deck(text.as_str())
         {
             self.job.menus.pop();
-            self.insert_deck(name, text.clone(), span);
+            self.insert_deck(name, path, text.clone(), span);
             return;
         }
         let opened = read.and_then(|text| self.interpreter.open(name, text, tag, Some(span)));
-        if let Err(error) = opened {
-            if tag != PLAIN {
-                self.job.menus.pop();
+        match opened {
+            Ok(id) => self.source_files.push((id, path.to_path_buf())),
+            Err(error) => {
+                if tag != PLAIN {
+                    self.job.menus.pop();
+                }
+                self.report(*error);
             }
-            self.report(*error);
+        }
+    }
+
+    /// A check reads below the script's folder alone, also where a link leads out of it.
+    fn within_check(&self, path: &Path, span: Span) -> Outcome<()> {
+        if self.check.is_none() {
+            Ok(())
+        } else {
+            commands::within_check(&self.job, path.to_path_buf(), span).map(drop)
         }
     }
 

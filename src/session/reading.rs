@@ -1,8 +1,10 @@
 //! The text of files and streams of records.
 
 use crate::report::files::open_regular;
+use std::collections::BTreeMap;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use windlass_language::source::{LARGEST_FILE, Text};
 
 /// Why a file or a stream of records cannot be read.
@@ -22,6 +24,27 @@ pub enum RecordReadError {
         /// What was read.
         name: String,
     },
+}
+
+/// Texts that an editor holds and has not saved yet, by the whole path of their files.
+#[derive(Clone, Debug, Default)]
+pub struct UnsavedTexts(Arc<BTreeMap<PathBuf, Text>>);
+
+impl UnsavedTexts {
+    /// These texts; the paths are whole and without links.
+    pub fn new(texts: BTreeMap<PathBuf, Text>) -> Self {
+        UnsavedTexts(Arc::new(texts))
+    }
+
+    /// The text of a file of records: what is not saved yet, else what the file holds.
+    ///
+    /// # Errors
+    /// As [`read_text`].
+    pub fn read(&self, path: &Path) -> Result<Text, RecordReadError> {
+        let is_held = || self.0.get(path).or_else(|| self.0.get(&path.canonicalize().ok()?)).cloned();
+        let held = if self.0.is_empty() { None } else { is_held() };
+        held.map_or_else(|| read_text(path), Ok)
+    }
 }
 
 /// The text of a file of records.

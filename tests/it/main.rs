@@ -13,12 +13,14 @@ mod program {
     mod editor;
     mod file_names;
     mod film;
+    mod format_scripts;
     mod functions;
     mod fuzz_corpus;
     mod hosted;
     mod hostile_input;
     mod lines;
     mod live_page;
+    mod lsp;
     mod macro_libraries;
     mod manual_blocks;
     mod menus;

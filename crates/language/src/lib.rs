@@ -30,6 +30,7 @@
 
 pub mod args;
 pub mod flow;
+pub mod format;
 pub mod functions;
 pub mod logic;
 pub mod name;

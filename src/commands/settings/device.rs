@@ -191,7 +191,10 @@ pub fn readable(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
 }
 
 /// A file that is to be read, which a check of a script takes from the script's folder alone.
-fn within_check(job: &Job, path: PathBuf, span: Span) -> Outcome<PathBuf> {
+///
+/// # Errors
+/// A file outside of it.
+pub fn within_check(job: &Job, path: PathBuf, span: Span) -> Outcome<PathBuf> {
     let folder = job.output.folder.root.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if job.checking.is_none() || is_within(&path, folder) {
         return Ok(path);
