@@ -95,7 +95,7 @@ static PLTMODE: MenuSpec = MenuSpec { name: "&PLTMODE", end: "END_&PLTMODE" };
 static DISPOSITION: MenuSpec = MenuSpec { name: "DISPOSITION", end: "END_DISPOSE" };
 
 const TOTAL: &str = "I_TOTAL gives added mass, damping and wave forces by records, DATABASE reads them";
-const DRIFT: &str = "#DRIFT gives mean drift by records, DATABASE reads it";
+const DRIFT: &str = "G_MDRIFT makes mean drift of a hull, #DRIFT gives it by records, DATABASE reads it";
 const NO_STRESS: &str = "a stress analysis, which windlass does not make";
 const LAUNCH_LEGS: &str = "launch legs, on which a jacket slides from its barge";
 const TUBE_INSTEAD: &str = "TUBE of &SURFACE, #WEIGHT and #AREA give members, weights and areas";
@@ -120,9 +120,6 @@ pub static ABSENT: &[Absent] = &[
         .opens(&I_PRESSURE)
         .instead(TOTAL),
     Absent::new("E_PRESSURE", Loss::Results, "hydrodynamic data of panels").in_menus(HYDRODYNAMIC),
-    Absent::new("G_MDRIFT", MOTIONS, "mean wave drift by formulas of MOSES, which are not public")
-        .in_menus(HYDRODYNAMIC)
-        .instead(DRIFT),
     Absent::new("I_MDRIFT", MOTIONS, "mean wave drift by records")
         .in_menus(HYDRODYNAMIC)
         .opens(&I_MDRIFT)

@@ -54,6 +54,7 @@ static RUN: &[&Command] = &[
     &compartment::COMPARTMENT,
     &hydrodynamics::HYDRODYNAMICS,
     &hydrodynamics::G_PRESSURE,
+    &hydrodynamics::G_MDRIFT,
     &hydrodynamics::I_TOTAL,
     &hydrodynamics::H_ORIGIN,
     &hydrodynamics::H_EULERA,

@@ -218,6 +218,7 @@ static LISTED: &[&Command] = &[
     &hstatics::tank_capacity::TANK_CAPACITY,
     &hydrodynamics::HYDRODYNAMICS,
     &hydrodynamics::G_PRESSURE,
+    &hydrodynamics::G_MDRIFT,
     &hydrodynamics::I_TOTAL,
     &hydrodynamics::E_TOTAL,
     &hydrodynamics::H_ORIGIN,

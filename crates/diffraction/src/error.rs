@@ -39,6 +39,32 @@ pub enum DiffractionError {
         /// Draught (m).
         draught: f64,
     },
+    /// A mesh whose normals point into the hull.
+    #[error("the panels of body {0} face inward: give their corners the other way round")]
+    InsideOut(usize),
+    /// A mesh with a gap below the water.
+    #[error(
+        "the mesh of body {body} is open below the water: by the x, y and z components of its normals it displaces {:.4}, {:.4} and {:.4} m3",
+        volumes[0],
+        volumes[1],
+        volumes[2]
+    )]
+    OpenMesh {
+        /// Its number, from 1.
+        body: usize,
+        /// Displaced volume by x, y and z (m3).
+        volumes: [f64; 3],
+    },
+    /// A body within another.
+    #[error("body {first} reaches into body {second}, or touches it, at x {:.3}, y {:.3}, z {:.3} m", at[0], at[1], at[2])]
+    Overlap {
+        /// Its number, from 1.
+        first: usize,
+        /// That of the other.
+        second: usize,
+        /// Where (m).
+        at: [f64; 3],
+    },
     /// Mirror planes together with several bodies.
     #[error("mirror planes are for one body alone, there are {0}")]
     MirroredBodies(usize),

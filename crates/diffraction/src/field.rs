@@ -45,8 +45,6 @@ pub struct ControlSurfaceDrift {
 
 /// Points may lie so far below the bottom, over the depth, as differences at it need; the potential is smooth through it.
 const BOTTOM_ROOM: f64 = 0.02;
-/// Pieces of the tables of finite depth along the distance: more would take minutes and gigabytes.
-const MAX_PIECES: f64 = 5000.0;
 
 /// What of the mean momentum flux at a point goes to a body.
 struct FluxPoint {
@@ -59,8 +57,7 @@ struct FluxPoint {
 impl WaveSolution {
     /// The potential (m2/s) at points in the water or at the mean level, for a wave of amplitude 1 m from each of the headings with the motions
     /// of the bodies in it: heading by heading, then point by point. Within a panel's size of a hull it is no better than the panels. None where
-    /// the motions are not those of all headings, or a point is above the mean level, below the bottom, not finite, or in finite depth farther
-    /// away than five thousand pieces of the tables, each a third of a wave length or half a depth.
+    /// the motions are not those of all headings, or a point is above the mean level, below the bottom or not finite.
     pub fn potentials(&self, motions: &[Vec<C>], points: &[Vector3<f64>]) -> Option<Vec<Vec<C>>> {
         let lowest = self.wave.depth.map_or(f64::NEG_INFINITY, |depth| -depth * (1.0 + BOTTOM_ROOM));
         let is_in_water = |at: &Vector3<f64>| at.iter().all(|x| x.is_finite()) && at.z <= 0.0 && at.z >= lowest;
@@ -78,10 +75,6 @@ impl WaveSolution {
             most.max(corners().map(|corner| horizontal(&mirrored(corner, *image))).fold(0.0, f64::max))
         });
         let reach = farthest(&mut points.iter()) + of_hull;
-        let piece = self.wave.depth.map_or(f64::INFINITY, |depth| (2.0 / self.wave.wave_number).min(0.5 * depth));
-        if reach > MAX_PIECES * piece {
-            return None;
-        }
         let draught = points.iter().chain(corners()).fold(0.0, |most: f64, point| most.max(-point.z));
         let nu = self.wave.frequency.powi(2) / self.wave.gravity;
         let kernel = WaveKernel::new(nu, self.wave.depth, reach, draught);

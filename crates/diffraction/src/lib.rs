@@ -9,10 +9,14 @@
 //! use windlass_diffraction::{DiffractionBody, DiffractionProblem, HullMesh, MirrorPlanes, Water};
 //!
 //! # fn main() -> Result<(), windlass_diffraction::DiffractionError> {
-//! // one panel of the bottom of a flat raft, 0.5 m deep, corners counter-clockwise as seen from the water
-//! let corner = |x, y| Vector3::new(x, y, -0.5);
-//! let quads = [[corner(-1.0, -1.0), corner(-1.0, 1.0), corner(1.0, 1.0), corner(1.0, -1.0)]];
-//! let mesh = HullMesh::new(&quads, MirrorPlanes::default())?;
+//! // a quarter of a raft of 2 x 2 m, 0.5 m deep: bottom and two sides, corners counter-clockwise as seen from the water
+//! let at = Vector3::new;
+//! let quads = [
+//!     [at(0.0, 0.0, -0.5), at(0.0, 1.0, -0.5), at(1.0, 1.0, -0.5), at(1.0, 0.0, -0.5)],
+//!     [at(1.0, 0.0, -0.5), at(1.0, 1.0, -0.5), at(1.0, 1.0, 0.0), at(1.0, 0.0, 0.0)],
+//!     [at(1.0, 1.0, -0.5), at(0.0, 1.0, -0.5), at(0.0, 1.0, 0.0), at(1.0, 1.0, 0.0)],
+//! ];
+//! let mesh = HullMesh::new(&quads, MirrorPlanes { x: true, y: true })?;
 //! let water = Water { density: 1025.0, gravity: 9.81, depth: Some(20.0) };
 //! let problem = DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water)?;
 //! let forces = problem.solve(0.8, &[0.0])?;

@@ -79,8 +79,8 @@ impl HullMesh {
         HullMesh::from_panels(panels, lids, mirrors)
     }
 
-    /// The same hull with its inner waterplane closed by a lid, which takes irregular frequencies away [LEE-NEWMAN-ZHU-1996]; none where its
-    /// waterline is not one ring about a point from which all of it is seen.
+    /// The same hull with its inner waterplane closed by a lid, which takes irregular frequencies away [LEE-NEWMAN-ZHU-1996]: that of every
+    /// column; a moonpool stays open, and a hull below the water has none. `None` where the waterline does not close.
     pub fn with_lid(&self) -> Option<Self> {
         let hull: Vec<Panel> = self.hull().to_vec();
         let lid = crate::lid::close_waterplane(&hull, self.mirrors)?;

@@ -10,6 +10,7 @@ use crate::symmetry::SymmetryClass;
 use crate::wave_solution::WaveSolution;
 use crate::wave_system::{Accuracy, WaveKernel, WaveSystem, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 type C = Complex<f64>;
@@ -18,6 +19,10 @@ type C = Complex<f64>;
 pub const MOTIONS: usize = 6;
 /// Residual of the equations over their right side: well below what the panels leave.
 const TOLERANCE: f64 = 4e-7;
+
+/// Displaced volumes by x, y and z that differ by more than this share, or normals that leave as much of the areas, are those of an open mesh:
+/// of flat panels that meet there is no difference.
+const OPEN_SHARE: f64 = 0.02;
 
 /// Density, gravity and depth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -105,7 +110,8 @@ impl DiffractionProblem {
     /// Prepares bodies in water.
     ///
     /// # Errors
-    /// No body; mirror planes of one of several bodies; density, gravity or depth that is not above zero; a bottom above the keel.
+    /// No body; mirror planes of one of several bodies; density, gravity or depth that is not above zero; a bottom above the keel; a mesh that is
+    /// open below the water or inside out; bodies that overlap or touch.
     pub fn new(bodies: &[DiffractionBody], water: Water) -> Result<Self, DiffractionError> {
         if !(water.density > 0.0 && water.gravity > 0.0 && (water.density * water.gravity).is_finite()) {
             return Err(DiffractionError::Water);
@@ -137,6 +143,10 @@ impl DiffractionProblem {
         {
             return Err(DiffractionError::Depth { depth, draught });
         }
+        for (index, body) in bodies.iter().enumerate() {
+            check_closed(index + 1, &body.mesh, water.depth)?;
+        }
+        check_apart(bodies)?;
         let extent = |axis: usize, mirrored: bool| {
             let (low, high) = corners().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), corner| {
                 (low.min(corner[axis]), high.max(corner[axis]))
@@ -270,7 +280,7 @@ impl DiffractionProblem {
             for (index, potentials) in incident.iter().enumerate() {
                 let side = right.column_mut(motions.len() + index);
                 for (value, (potential, _)) in side.iter_mut().zip(potentials) {
-                    *value = potential * (4.0 * std::f64::consts::PI);
+                    *value = potential * (4.0 * PI);
                 }
             }
             let (solved, uses) = solve_system(system, &right).ok_or(DiffractionError::NoSolution(frequency))?;
@@ -341,6 +351,68 @@ fn solve_system(system: &WaveSystem, right: &Columns) -> Option<(Columns, usize)
         |vectors| system.multiply(vectors, Accuracy::Rough),
         |vectors| system.multiply(vectors, Accuracy::Full),
     )
+}
+
+/// Sees that the panels of a body close it below the water, but for a bottom that it stands on, and face the water.
+fn check_closed(number: usize, mesh: &HullMesh, depth: Option<f64>) -> Result<(), DiffractionError> {
+    let volumes = mesh.volumes();
+    let lowest = mesh.hull().iter().flat_map(|panel| panel.corners()).fold(0.0, |most: f64, corner| most.max(-corner.z));
+    let stands = depth.is_some_and(|depth| lowest >= depth * (1.0 - 1e-6));
+    let seen = if stands { &volumes[..2] } else { &volumes[..] };
+    let (low, high) =
+        seen.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(*v), high.max(*v)));
+    // the horizontal components of the normals cancel; those of a part cancel with its images
+    let mirrored = [mesh.mirrors().x, mesh.mirrors().y];
+    let is_unbalanced = [0, 1].iter().any(|axis| {
+        let (sum, all) = mesh.hull().iter().fold((0.0, 0.0), |(sum, all), panel| {
+            let along = panel.normal[*axis] * panel.area;
+            (sum + along, all + along.abs())
+        });
+        !mirrored[*axis] && sum.abs() > OPEN_SHARE * all
+    });
+    if high <= 0.0 && low < 0.0 && !is_unbalanced {
+        Err(DiffractionError::InsideOut(number))
+    } else if is_unbalanced || high - low > OPEN_SHARE * high.abs().max(low.abs()) || low <= 0.0 {
+        Err(DiffractionError::OpenMesh { body: number, volumes })
+    } else {
+        Ok(())
+    }
+}
+
+/// Sees that no body reaches into another: seen from within a hull and its image above the water, their panels fill the sphere.
+fn check_apart(bodies: &[DiffractionBody]) -> Result<(), DiffractionError> {
+    let limits = |mesh: &HullMesh| {
+        let corners = || mesh.hull().iter().flat_map(|panel| panel.corners());
+        [0, 1, 2].map(|axis| {
+            corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
+        })
+    };
+    let all: Vec<_> = bodies.iter().map(|body| limits(&body.mesh)).collect();
+    for (first, body) in bodies.iter().enumerate() {
+        for (second, other) in bodies.iter().enumerate().filter(|(second, _)| *second != first) {
+            let is_near = |at: &Vector3<f64>| {
+                all[second].iter().zip(at.iter()).all(|([low, high], x)| {
+                    let room = 1e-9 * (high - low);
+                    (low - room..=high + room).contains(x)
+                })
+            };
+            let angle = |at: &Vector3<f64>| -> f64 {
+                let image = Vector3::new(at.x, at.y, -at.z);
+                other.mesh.hull().iter().map(|panel| panel.rankine(at)[1] + panel.rankine(&image)[1]).sum()
+            };
+            for panel in body.mesh.hull() {
+                // a centroid on a face of the other sees half a sphere; a corner on its edges may see three quarters
+                let points = std::iter::once((&panel.centroid, PI)).chain(panel.corners().iter().map(|at| (at, 3.2 * PI)));
+                for (at, most) in points {
+                    if is_near(at) && angle(at) < -most {
+                        let at = [at.x, at.y, at.z];
+                        return Err(DiffractionError::Overlap { first: first + 1, second: second + 1, at });
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Velocities of the surface along the normal out of the water, for unit velocity of each motion about an origin.

@@ -56,8 +56,42 @@ pub struct Database {
     pub depth: Option<f64>,
     /// Mass or displaced mass of the body as the source gives it (kg).
     pub mass: Option<f64>,
+    /// The number of its body among those of its source, from 0.
+    pub index: usize,
+    /// Radiation of the other bodies of its source, as it acts on this one.
+    pub interactions: Vec<Interaction>,
+    /// Size of the panels that it was computed with here (m); none of a source that was read.
+    pub panel_size: Option<f64>,
     /// What the reader noticed: asymmetry, negative damping, gaps.
     pub remarks: Vec<String>,
+}
+
+/// Forces on a body, about the reference point of its database and in its axes, by motions of another body, of the reference point of that
+/// one's and in its axes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Interaction {
+    /// The number of the other body among those of the source, from 0.
+    pub index: usize,
+    /// Added mass, one matrix a frequency (kg, kg m, kg m2).
+    pub added_mass: Vec<Matrix6<f64>>,
+    /// Damping by radiated waves, one matrix a frequency (N s/m, N s, N m s).
+    pub damping: Vec<Matrix6<f64>>,
+    /// Added mass at infinite frequency, as the source gives it.
+    pub infinite: Option<Matrix6<f64>>,
+    /// Where the other body stood: x and y of its origin in axes of this one's heading (m), and its heading from this one's (rad); where the
+    /// source tells.
+    pub place: Option<[f64; 3]>,
+}
+
+/// An interaction with the two bodies that it is between.
+#[derive(Clone, Copy, Debug)]
+pub struct InteractingBodies<'a> {
+    /// The body that the forces are on, with its key.
+    pub on: (&'a str, &'a Body),
+    /// The body whose motions make them.
+    pub by: (&'a str, &'a Body),
+    /// The forces.
+    pub interaction: &'a Interaction,
 }
 
 /// Mean drift over the square of the wave amplitude (N/m2, N/m), about the reference point of its database.
@@ -114,7 +148,71 @@ pub struct AttachedDatabase {
     pub span: Span,
 }
 
+/// Share of the distance, and angle (rad), by which bodies may stand otherwise than their source had them.
+const PLACE_SHARE: f64 = 0.05;
+const PLACE_ANGLE: f64 = 0.05;
+
 impl Model {
+    /// The interactions of databases whose two bodies are both in the model with databases of one source, in the order of the bodies.
+    pub fn interactions(&self) -> Vec<InteractingBodies<'_>> {
+        let with_data = || {
+            self.bodies.iter().filter_map(|(key, body)| {
+                let data = body.database.as_ref()?.data.as_ref();
+                Some((key.as_str(), body, data))
+            })
+        };
+        let mut list = Vec::new();
+        for (key, body, data) in with_data() {
+            for interaction in &data.interactions {
+                let other = with_data().find(|(other, _, found)| {
+                    *other != key && found.source == data.source && found.index == interaction.index
+                });
+                if let Some((other, found, _)) = other {
+                    list.push(InteractingBodies { on: (key, body), by: (other, found), interaction });
+                }
+            }
+        }
+        list
+    }
+
+    /// What is to be said of the interactions of the database of a body: other bodies of its source that the model has not, or that stand
+    /// elsewhere.
+    fn interaction_caveats(&self, body: &Body, data: &Database) -> Vec<String> {
+        let mut list = Vec::new();
+        let found: Vec<_> = self.interactions().into_iter().filter(|pair| pair.on.1.name == body.name).collect();
+        let missing = data.interactions.iter().filter(|own| !found.iter().any(|pair| pair.interaction.index == own.index));
+        let count = missing.count();
+        if count > 0 {
+            list.push(format!(
+                "{} of {} bodies that {} was computed with have no database of it: their waves do not act on {}",
+                count,
+                data.interactions.len(),
+                data.source,
+                body.name
+            ));
+        }
+        for pair in found {
+            let Some([x, y, turn]) = pair.interaction.place else { continue };
+            let (own, other) = (&body.position, &pair.by.1.position);
+            let (dx, dy) = (other.shift[0] - own.shift[0], other.shift[1] - own.shift[1]);
+            let (sine, cosine) = own.turn[2].sin_cos();
+            let (ahead, aside) = (dx * cosine + dy * sine, dy * cosine - dx * sine);
+            let off = (ahead - x).hypot(aside - y);
+            let angle = (other.turn[2] - own.turn[2] - turn + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
+                - std::f64::consts::PI;
+            if off > PLACE_SHARE * x.hypot(y) || angle.abs() > PLACE_ANGLE {
+                list.push(format!(
+                    "{} stands {off:.2} m and {:.1} degrees away from where {} had it beside {}",
+                    pair.by.1.name,
+                    angle.abs().to_degrees(),
+                    data.source,
+                    body.name
+                ));
+            }
+        }
+        list
+    }
+
     /// What the database of a body lacks in the environment in force, or does not fit: each is in every report. Waves without drift
     /// coefficients make no drift force, unless `#DRIFT` gives it or `-DRIFT NONE` waives it; coefficients of another depth of water are
     /// those of other waves where these feel the bottom.
@@ -150,6 +248,7 @@ impl Model {
                 depth(around.depth)
             ));
         }
+        list.extend(self.interaction_caveats(body, data));
         list
     }
 }

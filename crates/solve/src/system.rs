@@ -11,6 +11,7 @@ use windlass_base::choice::Dof;
 use windlass_base::dense::DenseError;
 use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::database::interaction::{GatheredInteraction, InteractionLoad, gather_interactions};
 use windlass_hydro::sea::Sea;
 use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
 use windlass_model::{
@@ -133,6 +134,41 @@ pub struct System {
     /// Forces and moments that act on bodies besides all others, about their origins, global axes; they keep their
     /// directions.
     pub applied: Vec<(usize, Six)>,
+    /// Radiated waves of bodies as they act on others.
+    pub(super) interactions: Vec<BodyInteraction>,
+}
+
+/// Radiated waves of a body as they act on another, by their numbers.
+#[derive(Debug)]
+pub(super) struct BodyInteraction {
+    pub on: usize,
+    pub by: usize,
+    /// Added mass at infinite frequency, rows in the axes of the first body, columns in those of the second.
+    infinite: Matrix6<f64>,
+    /// In time; none at rest.
+    pub load: Option<InteractionLoad>,
+}
+
+impl BodyInteraction {
+    /// Those of a model among bodies with these keys.
+    pub(super) fn gather(model: &Model, nodes: &[SystemBody], under_way: Option<Option<&Sea>>) -> Result<Vec<Self>, SolveError> {
+        let number = |key: &String| nodes.iter().position(|node| node.key == *key);
+        let all = gather_interactions(model, under_way).map_err(SolveError::new)?;
+        let made = all.into_iter().filter_map(|GatheredInteraction { bodies: [on, by], infinite, load }| {
+            Some(BodyInteraction { on: number(&on)?, by: number(&by)?, infinite, load })
+        });
+        Ok(made.collect())
+    }
+}
+
+/// A matrix between two bodies, rows in the axes of one and columns in those of the other, in global axes.
+pub(super) fn between_poses(matrix: &Matrix6<f64>, on: &Pose, by: &Pose) -> Matrix6<f64> {
+    let mut turned = Matrix6::zeros();
+    for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+        let block = on.axes * matrix.fixed_view::<3, 3>(row, column) * by.axes.transpose();
+        turned.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+    }
+    turned
 }
 
 impl System {
@@ -148,7 +184,8 @@ impl System {
             Ok(SystemBody::new(model, key, body, floating))
         };
         let nodes = model.bodies.iter().map(node).collect::<Result<Vec<_>, SolveError>>()?;
-        System::build(model, (nodes, None), left_out, RunRequirements::default())
+        let interactions = BodyInteraction::gather(model, &nodes, None)?;
+        System::build(model, (nodes, None), left_out, RunRequirements::default(), interactions)
     }
 
     /// The system of a model under way: bodies with what a sea does to them, lines as a run asks for them.
@@ -158,7 +195,8 @@ impl System {
     pub fn under_way(model: &Model, sea: Option<&Arc<Sea>>, duties: RunRequirements) -> Result<Self, SolveError> {
         model.check_effects(SolveKind::Statics).map_err(SolveError::new)?;
         let nodes = moving_nodes(model, sea)?;
-        System::build(model, (nodes, sea), &[], duties)
+        let interactions = BodyInteraction::gather(model, &nodes, Some(sea.map(Arc::as_ref)))?;
+        System::build(model, (nodes, sea), &[], duties, interactions)
     }
 
     fn build(
@@ -166,6 +204,7 @@ impl System {
         (nodes, sea): (Vec<SystemBody>, Option<&Arc<Sea>>),
         left_out: &[String],
         duties: RunRequirements,
+        interactions: Vec<BodyInteraction>,
     ) -> Result<Self, SolveError> {
         let ambient = ambient(model, sea).map_err(SolveError::new)?;
         let mut states = Vec::new();
@@ -186,7 +225,7 @@ impl System {
             }
         }
         let (surroundings, gravity) = (model.surroundings(), model.defaults.gravity);
-        Ok(System { nodes, links, states, surroundings, ambient, duties, gravity, applied: Vec::new() })
+        Ok(System { nodes, links, states, surroundings, ambient, duties, gravity, applied: Vec::new(), interactions })
     }
 
     /// Dynamic lines begin a run in these states, given for all connectors.
@@ -388,6 +427,12 @@ impl System {
         for (index, (node, pose)) in self.nodes.iter().zip(poses).enumerate() {
             let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose);
             matrix.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
+        }
+        // under way they are loads
+        for between in self.interactions.iter().filter(|between| between.load.is_none()) {
+            let (Some(on), Some(by)) = (poses.get(between.on), poses.get(between.by)) else { continue };
+            let mut block = matrix.fixed_view_mut::<6, 6>(6 * between.on, 6 * between.by);
+            block += between_poses(&between.infinite, on, by);
         }
         matrix
     }

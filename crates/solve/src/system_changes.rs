@@ -1,7 +1,7 @@
 //! Changes of a system under way: connectors that come and go or change their length, loads of another environment.
 
 use super::link::{EndAttachment, Link, end_attachments, link};
-use super::system::{SolveError, System, moving_nodes};
+use super::system::{BodyInteraction, SolveError, System, moving_nodes};
 use super::time::{CompressionOnset, LinkEnds, LoadMemory};
 use std::sync::Arc;
 use windlass_hydro::ambient;
@@ -164,11 +164,14 @@ impl System {
             }
             new.free = old.free;
         }
+        let interactions = BodyInteraction::gather(model, &nodes, Some(sea.map(Arc::as_ref)))?;
         let before = std::mem::replace(&mut self.nodes, nodes);
+        let between = std::mem::replace(&mut self.interactions, interactions);
         let mut made = LoadMemory::new(self);
         for (body, old) in before.iter().enumerate() {
             made.recall(body, self, memory, old);
         }
+        made.recall_interactions(self, memory, &between);
         Ok(made)
     }
 }

@@ -23,7 +23,7 @@ use windlass_hydro::database::{Database, DatabaseError, SourceFile, aqwa, capyta
 use windlass_language::select::Owner;
 use windlass_language::source::LARGEST_FILE;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{AttachedDatabase, DriftMethod, Mass, Model, find};
+use windlass_model::{AttachedDatabase, Body, DriftMethod, Mass, Model, find};
 
 /// DATABASE.
 pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
@@ -257,7 +257,10 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         job.remark(format!("the database of {name} is replaced"), span);
     }
     hydrodynamics::settle_pressure(&mut job.model, &name);
-    let caveats = job.model.bodies.get(&key).map(|body| job.model.database_caveats(body)).unwrap_or_default();
+    // of bodies that are given one by one the others may follow: solves say what is left of it
+    let alone = |body: &&Body| body.database.as_ref().is_some_and(|made| made.data.interactions.is_empty());
+    let body = job.model.bodies.get(&key).filter(alone);
+    let caveats = body.map(|body| job.model.database_caveats(body)).unwrap_or_default();
     for text in caveats {
         job.warn(text, source);
     }

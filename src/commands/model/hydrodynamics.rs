@@ -1,11 +1,12 @@
-//! `HYDRODYNAMICS`: the hydrodynamic data of bodies in the forms of MOSES. `G_PRESSURE` makes a database by panels; `I_TOTAL` reads the
-//! values of a database and `E_TOTAL` writes them; `V_MATRICES`, `V_EXFORCES` and `V_MDRIFT` show them.
+//! `HYDRODYNAMICS`: the hydrodynamic data of bodies in the forms of MOSES. `G_PRESSURE` makes a database by panels, `G_MDRIFT` its mean drift
+//! anew; `I_TOTAL` reads the values of a database and `E_TOTAL` writes them; `V_MATRICES`, `V_EXFORCES` and `V_MDRIFT` show them.
 //!
 //! Source: [MOSES-REF hydr_men, pressure] for the menu and G_PRESSURE. The records of I_TOTAL are from memory of MOSES; their units, and
 //! the file of E_TOTAL, are our reading.
 
 use crate::commands::menu;
 use crate::commands::model::database;
+use crate::commands::model::panel_drift;
 use crate::commands::model::panel_forces::{self, PanelRequest};
 use crate::commands::output::disposition::write_file;
 use crate::commands::status::database_table;
@@ -29,6 +30,8 @@ use windlass_model::{AttachedDatabase, Body, DriftMethod, Model, SolveKind, Unmo
 pub static HYDRODYNAMICS: Command = Command { spec: &MENU_SPEC, edits: false, run: open };
 /// G_PRESSURE.
 pub static G_PRESSURE: Command = Command { spec: &PRESSURE_SPEC, edits: false, run: pressure };
+/// G_MDRIFT.
+pub static G_MDRIFT: Command = Command { spec: &MEAN_SPEC, edits: false, run: mean_drift };
 /// I_TOTAL.
 pub static I_TOTAL: Command = Command { spec: &TOTAL_SPEC, edits: false, run: total };
 /// E_TOTAL.
@@ -105,6 +108,26 @@ const WATER_DEPTH: OptionSpec = OptionSpec::ours(
     "the depth of the water",
 )
 .default("that of the environment; deep water where it has none");
+const WITH: OptionSpec = OptionSpec::ours(
+    "-WITH",
+    &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "another body")],
+    "other bodies that are solved together with it",
+)
+.repeating(1);
+const MD_TYPE: OptionSpec = OptionSpec::new(
+    "-MD_TYPE",
+    &[ValueSpec::new("TYPE", Kind::Text, "FORMULAE or SEMI")],
+    "accepted, without effect: drift is that of the panels, not that of formulas",
+);
+const DIMENSIONS: OptionSpec = OptionSpec::new(
+    "-DIMENSIONS",
+    &[
+        ValueSpec::new("L", Kind::Number(Dim::Length), "length"),
+        ValueSpec::new("B", Kind::Number(Dim::Length), "beam"),
+        ValueSpec::new("T", Kind::Number(Dim::Length), "draft"),
+    ],
+    "accepted, without effect: the hull has them",
+);
 const MAX_DIST: OptionSpec = OptionSpec::new(
     "-MAX_DIST",
     &[ValueSpec::new("D", Kind::Number(Dim::Length), "length").positive()],
@@ -114,12 +137,14 @@ const MAX_DIST: OptionSpec = OptionSpec::new(
 static PRESSURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, MAX_DIST],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MAX_DIST],
     detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
              are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
-             Mirror planes of the hull are found and used. The inner waterplane is closed by a lid where its waterline is one ring, which takes \
-             irregular frequencies away. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
-             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency and without mean drift. Roll has the damping of radiated waves \
+             Mirror planes of a single hull are found and used. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
+             irregular frequencies away; a moonpool stays open. -WITH solves several bodies together: each gets a database with the \
+             radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
+             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. A body alone has its mean drift, by the waves far away and with the motions \
+             that its mass, stiffness, moorings and damping give it now: G_MDRIFT finds it anew after these have changed. Roll has the damping of radiated waves \
              alone: #DAMP adds what eddies take. The report has the panels of a wave length and the difference of exciting forces by pressure and by Haskind's \
              relation, which measures the mesh. Headings and periods are kept as those of RAO. A body with a database of DATABASE or I_TOTAL keeps it: \
              that is said. For a body without a hull motions stop with one error until it is given a database.",
@@ -127,6 +152,20 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
               BLOCK HULL -45 -15 -3.7 45 15 4\nEND_&SURFACE\nEND\nHYDRODYNAMICS\nG_PRESSURE BARGE -HEADING 180 90 -PERIOD 7 9 12 -PANEL 6\nEND\n\
               FREQ_RESPONSE\nRAO\nEND",
     ..CommandSpec::new("G_PRESSURE", "hydrodynamic pressures of a body")
+};
+
+static MEAN_SPEC: CommandSpec = CommandSpec {
+    menus: &[&menu::HYDRODYNAMICS],
+    data: &[BODY, PACKET],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, MD_TYPE, DIMENSIONS],
+    detail: "Mean drift in surge, sway and yaw of a body that has a database of G_PRESSURE, by its panels where it stands and with the motions that its mass, \
+             stiffness, moorings and damping give it now, drag at rest; it replaces the drift of the database. It is found by the waves far away, which \
+             solves use, and by a control surface around the body: the report has both and their difference, which measures the mesh. A body that is held \
+             (&DESCRIBE BODY -IGNORE of all its motions) has the drift of one that does not move. Panels, depth, headings and periods are those of \
+             G_PRESSURE where none are given. -MD_TYPE and -DIMENSIONS of MOSES are read and have no effect.",
+    example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BARGE\n*CG 0 0 0\n#WEIGHT *CG 100552 12 26 26\n#DAMP *CG 0 0 0 2E5\n&SURFACE\n\
+              BLOCK HULL -45 -15 -3.7 45 15 4\nEND_&SURFACE\nEND\nHYDRODYNAMICS\nG_PRESSURE BARGE -HEADING 180 -PERIOD 9 12 -PANEL 7\nG_MDRIFT BARGE\nV_MDRIFT BARGE\nREPORT\nEND\nEND",
+    ..CommandSpec::new("G_MDRIFT", "mean wave drift of a body by its panels")
 };
 
 static TOTAL_SPEC: CommandSpec = CommandSpec {
@@ -225,7 +264,7 @@ static DRIFT_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     opens: Opens::Menu(&menu::DISPOSITION),
     data: &[BODY],
-    detail: "Mean drift over the square of the wave amplitude by heading and period, as in &STATUS DATABASE. I_TOTAL gives none.",
+    detail: "Mean drift over the square of the wave amplitude by heading and period, as in &STATUS DATABASE. G_PRESSURE and G_MDRIFT make it; I_TOTAL gives none.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&FILE OPEN A ball.1\n&FILE WRITE A 6 3 3 900 300\n&FILE WRITE A 9 3 3 1100 400\n&FILE CLOSE A\n\
               &FILE OPEN D ball.8\n&FILE WRITE D 6 180 180 1 5 180 -5 0\n&FILE WRITE D 9 180 180 1 3 180 -3 0\n&FILE CLOSE D\n\
               MEDIT\n&DESCRIBE BODY BALL\n*CG 0 0 0\n#WEIGHT *CG 20000 4 4 4\nDATABASE BALL -WAMIT job.ans/ball\nEND\n\
@@ -255,8 +294,22 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
     let name = body.name.clone();
     // what it has made itself it makes again
-    let has_database = body.database.as_ref().is_some_and(|attached| attached.data.source != "G_PRESSURE");
+    let has_database = body.database.as_ref().is_some_and(|attached| !attached.data.source.starts_with(panel_forces::SOURCE));
     let has_hull = windlass_hydro::wetted_hull::has_hull(&job.model, body);
+    let mut names = vec![name.clone()];
+    for value in args.option(&WITH).into_iter().flat_map(|given| &given.values) {
+        let (word, place) = (value.word().unwrap_or_default(), args.option(&WITH).map_or(span, |given| given.span));
+        let other = find(&job.model.bodies, word, "body", place)?;
+        if names.iter().any(|own| own.eq_ignore_ascii_case(&other.name)) {
+            return Err(Diagnostic::error(format!("{} is named twice", other.name), place));
+        }
+        let foreign = |attached: &AttachedDatabase| !attached.data.source.starts_with(panel_forces::SOURCE);
+        if has_database || other.database.as_ref().is_some_and(foreign) {
+            let text = "bodies that are solved together have no databases of DATABASE or I_TOTAL";
+            return Err(Diagnostic::error(text, place));
+        }
+        names.push(other.name.clone());
+    }
     let given = |option: &OptionSpec| args.option(option).map(Given::numbers).filter(|list| !list.is_empty());
     let (headings, periods) = (given(&HEADING), given(&PERIOD));
     if let Some(list) = periods.as_ref().filter(|list| list.len() > MAX_PERIODS) {
@@ -278,12 +331,6 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             return Ok(Effect::Done);
         }
         let length = |option: &OptionSpec| given(option).and_then(|list| list.first().copied());
-        let toward = |list: Vec<f64>| -> Vec<f64> {
-            let mut list: Vec<f64> = list.iter().map(|from| (from + PI).rem_euclid(TAU)).collect();
-            list.sort_by(f64::total_cmp);
-            list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
-            list
-        };
         let request = PanelRequest {
             headings: given(&HEADING).map_or_else(panel_forces::usual_headings, toward),
             periods: job.model.wave_defaults.periods.clone(),
@@ -291,7 +338,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             depth: length(&WATER_DEPTH),
             span,
         };
-        panel_forces::compute(job, &name, &request)?;
+        panel_forces::compute(job, &names, &request)?;
         return Ok(Effect::Done);
     }
     settle_pressure(&mut job.model, &name);
@@ -310,6 +357,54 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         ),
     );
     Ok(Effect::Done)
+}
+
+fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    const NAME: DatumKey<str> = MEAN_SPEC.word("BODY");
+    let (args, span) = (&call.args, call.args.span);
+    let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
+    let name = body.name.clone();
+    if job.checking.is_some() {
+        return Ok(Effect::Done);
+    }
+    let Some(data) = body.database.as_ref().map(|attached| attached.data.clone()) else {
+        let text = format!("{name} has no database whose drift could be found");
+        return Err(Diagnostic::error(text, args.position(NAME))
+            .help("G_PRESSURE makes one of its hull; #DRIFT gives mean drift by records"));
+    };
+    let Some(size) = data.panel_size.filter(|_| data.interactions.is_empty()) else {
+        if data.drift.is_some() || data.qtf.is_some() {
+            job.remark(format!("the mean drift of {name} is that of its database: G_MDRIFT computes none"), span);
+            return Ok(Effect::Done);
+        }
+        let text = format!("the database of {name} ({}) is not one that G_PRESSURE made of this body alone", data.source);
+        return Err(Diagnostic::error(text, args.position(NAME)).help("#DRIFT gives mean drift by records"));
+    };
+    for option in [&MD_TYPE, &DIMENSIONS] {
+        if let Some(given) = args.option(option) {
+            let text = format!("{}: drift is that of the panels, not that of formulas", given.option.name);
+            job.remark(text, given.span);
+        }
+    }
+    let given = |option: &OptionSpec| args.option(option).map(Given::numbers).filter(|list| !list.is_empty());
+    let length = |option: &OptionSpec| given(option).and_then(|list| list.first().copied());
+    let request = PanelRequest {
+        headings: given(&HEADING).map_or_else(|| data.headings.clone(), toward),
+        periods: given(&PERIOD).unwrap_or_else(|| data.frequencies.iter().map(|w| TAU / w).collect()),
+        size: length(&PANEL).or(Some(size)),
+        depth: length(&WATER_DEPTH).or(data.depth),
+        span,
+    };
+    panel_drift::compute(job, &name, &data, &request)?;
+    Ok(Effect::Done)
+}
+
+/// Where waves go to (rad), growing, of headings that they come from.
+fn toward(list: Vec<f64>) -> Vec<f64> {
+    let mut list: Vec<f64> = list.iter().map(|from| (from + PI).rem_euclid(TAU)).collect();
+    list.sort_by(f64::total_cmp);
+    list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    list
 }
 
 /// A database that records are giving.
@@ -609,7 +704,7 @@ fn show_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (body, attached) = find_database(job, &call.args, NAME)?;
     let table = database_table::drift(body, attached).ok_or_else(|| {
         Diagnostic::error(format!("the database of {} has no mean drift", body.name), call.args.position(NAME))
-            .help("#DRIFT gives it by records; DATABASE reads it from the files of WAMIT, NEMOH, Capytaine and AQWA")
+            .help("G_PRESSURE and G_MDRIFT make it of a hull; #DRIFT gives it by records; DATABASE reads it from the files of WAMIT, NEMOH, Capytaine and AQWA")
     })?;
     Ok(dispose(job, table))
 }

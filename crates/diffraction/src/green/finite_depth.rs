@@ -15,8 +15,9 @@
 //!
 //! The term `q exp(-k (2 h - V))` at V is the deep-water Green function's `1/r' + nu W`, so that
 //! `G = 1/r + 1/r' + 1/r_b + nu W + S(R, V) + S'(R, V')`, `r_b` the distance from the image below the bottom. The real parts of `S` and `S'`
-//! are smooth, for their sources lie a depth and more away; they are tabulated over the reach of the bodies. The imaginary part is
-//! `2 pi C0 cosh k0(z + h) cosh k0(zeta + h) J0(k0 R)`, of which that of `nu W` is taken off.
+//! are smooth, for their sources lie a depth and more away; they are tabulated over the reach of the bodies, up to twelve depths. The
+//! imaginary part is `2 pi C0 cosh k0(z + h) cosh k0(zeta + h) J0(k0 R)`, of which that of `nu W` is taken off. Beyond twelve depths the
+//! propagating wave alone is left of the eigenfunctions, and no table is needed: hulls of any size take the same memory.
 
 use super::patch::{Patch, TERMS};
 use super::special::{complex_bessel, modified_bessel};
@@ -42,6 +43,11 @@ const DEEP: f64 = 24.0;
 const DEEP_CUT: f64 = 18.0;
 /// The same where the poles are gone round.
 const CUT: f64 = 34.0;
+/// Distance over depth beyond which the propagating wave is all: the first of the other eigenfunctions has `k1 h` above `pi/2`, and
+/// `K0(6 pi)` is 2e-9.
+const FAR_DISTANCE: f64 = 12.0;
+/// Wave number times depth up to which patches shorten with the wave length; of shorter waves the corrections feel nothing.
+const PATCHED_WAVE: f64 = DEEP;
 /// Longest piece of the path behind the poles, times the depth.
 const LONGEST_PIECE: f64 = 4.0;
 
@@ -95,9 +101,10 @@ impl FiniteDepthTable {
     /// `draught` (m) below the mean level.
     pub fn new(nu: f64, depth: f64, reach: f64, draught: f64) -> Self {
         let modes = Modes::new(nu, depth);
-        // waves want two points a wave length, the images one a depth
-        let step = (2.0 / modes.wave_number).min(SERIES_DISTANCE * depth);
-        let count = (reach / step).ceil().max(1.0) as usize;
+        // waves want three patches a wave length, the images two a depth
+        let shortest = modes.wave_number.min(PATCHED_WAVE / depth);
+        let step = (2.0 / shortest).min(SERIES_DISTANCE * depth);
+        let count = (reach.min(FAR_DISTANCE * depth) / step).ceil().max(1.0) as usize;
         let draught = draught.clamp(1e-3 * depth, depth);
         let fit = |part: Part, limits: [f64; 2]| -> Vec<Patch<3>> {
             (0..count)
@@ -132,6 +139,9 @@ impl FiniteDepthTable {
 
     /// The same from the part of deep water.
     pub fn correct(&self, found: FrequencyPart, distance: f64, heights: [f64; 2]) -> FrequencyPart {
+        if distance > FAR_DISTANCE * self.depth {
+            return self.far_part(distance, heights);
+        }
         let [z, source] = heights;
         let patch = ((distance / self.step) as usize).min(self.sum_part.len() - 1);
         let sum = self.sum_part[patch].evaluate(distance, z + source + 2.0 * self.depth);
@@ -139,12 +149,7 @@ impl FiniteDepthTable {
         let difference = self.difference_part[patch].evaluate(distance, rise.abs());
         let by_rise = rise.signum() * difference[2];
         let k = self.wave_number;
-        let scale = 1.0 / (1.0 + (-2.0 * k * self.depth).exp());
-        // cosh k(z + h)/cosh k h and its derivative
-        let [(own, own_slope), (other, other_slope)] = heights.map(|height| {
-            let (up, down) = ((k * height).exp(), (-k * (height + 2.0 * self.depth)).exp());
-            ((up + down) * scale, k * (up - down) * scale)
-        });
+        let [(own, own_slope), (other, other_slope)] = heights.map(|height| self.profile(height));
         let wave = 2.0 * PI * self.amplitude;
         let (j0, j1) = (libm::j0(k * distance), libm::j1(k * distance));
         FrequencyPart {
@@ -155,6 +160,38 @@ impl FiniteDepthTable {
                 C::new(found.by_heights[1].re + sum[2] - by_rise, wave * own * other_slope * j0),
             ],
         }
+    }
+
+    /// `cosh k(z + h)/cosh k h` and its derivative by z (1/m).
+    fn profile(&self, height: f64) -> (f64, f64) {
+        let k = self.wave_number;
+        let scale = 1.0 / (1.0 + (-2.0 * k * self.depth).exp());
+        let (up, down) = ((k * height).exp(), (-k * (height + 2.0 * self.depth)).exp());
+        ((up + down) * scale, k * (up - down) * scale)
+    }
+
+    /// The propagating wave, less the source and its images, which stand elsewhere in the Green function.
+    fn far_part(&self, distance: f64, heights: [f64; 2]) -> FrequencyPart {
+        let k = self.wave_number;
+        let [(own, own_slope), (other, other_slope)] = heights.map(|height| self.profile(height));
+        let wave = 2.0 * PI * self.amplitude;
+        let hankel = C::new(-libm::y0(k * distance), libm::j0(k * distance)) * wave;
+        let slope = C::new(libm::y1(k * distance), -libm::j1(k * distance)) * (wave * k);
+        let mut made = FrequencyPart {
+            value: hankel * (own * other),
+            by_distance: slope * (own * other),
+            by_heights: [hankel * (own_slope * other), hankel * (own * other_slope)],
+        };
+        let [z, source] = heights;
+        // the height of the point over the source or an image, and how it changes with that of the source
+        for (rise, with_source) in [(z - source, -1.0), (z + source, 1.0), (z + source + 2.0 * self.depth, 1.0)] {
+            let [value, by_distance, by_rise] = inverse_distance(distance, rise);
+            made.value.re -= value;
+            made.by_distance.re -= by_distance;
+            made.by_heights[0].re -= by_rise;
+            made.by_heights[1].re -= by_rise * with_source;
+        }
+        made
     }
 }
 

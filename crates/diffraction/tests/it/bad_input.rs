@@ -9,8 +9,21 @@ fn bottom() -> [Vector3<f64>; 4] {
     [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]].map(|[x, y]| Vector3::new(x, y, -2.0))
 }
 
+/// Bottom and sides of a box of 1 x 1 m, 2 m deep, about (x + 0.5, 0.5).
+fn box_at(x: f64) -> Vec<[Vector3<f64>; 4]> {
+    let [a, b, c, d] = bottom();
+    let up = |corner: Vector3<f64>| Vector3::new(corner.x, corner.y, 0.0);
+    let side = |p: Vector3<f64>, q: Vector3<f64>| [q, p, up(p), up(q)];
+    let quads = [[a, b, c, d], side(a, b), side(b, c), side(c, d), side(d, a)];
+    quads.map(|quad| quad.map(|corner| corner + Vector3::new(x, 0.0, 0.0))).to_vec()
+}
+
+fn body(quads: &[[Vector3<f64>; 4]]) -> DiffractionBody {
+    DiffractionBody { mesh: HullMesh::new(quads, MirrorPlanes::default()).unwrap(), origin: Vector3::zeros() }
+}
+
 fn problem(water: Water) -> Result<DiffractionProblem, DiffractionError> {
-    let mesh = HullMesh::new(&[bottom()], MirrorPlanes::default())?;
+    let mesh = HullMesh::new(&box_at(0.0), MirrorPlanes::default())?;
     DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water)
 }
 
@@ -49,6 +62,30 @@ fn points_outside_of_water_have_no_potential() {
     for z in [0.1, -11.0, f64::NAN] {
         assert!(!has_potential(Vector3::new(4.0, 0.0, z)), "{z}");
     }
-    assert!(!has_potential(Vector3::new(1e9, 0.0, -1.0)));
+    // beyond all tables the propagating wave is left
+    assert!(has_potential(Vector3::new(1e6, 0.0, -1.0)));
     assert!(waves.potentials(&[], &[Vector3::zeros()]).is_none());
+}
+
+#[test]
+fn open_and_inverted_meshes_are_refused() {
+    let made = |quads: &[[Vector3<f64>; 4]]| DiffractionProblem::new(&[body(quads)], WATER).err();
+    let whole = box_at(0.0);
+    assert_eq!(made(&whole), None);
+    assert!(matches!(made(&whole[1..]), Some(DiffractionError::OpenMesh { body: 1, .. })));
+    assert!(matches!(made(&whole[..4]), Some(DiffractionError::OpenMesh { .. })));
+    let turned: Vec<_> = whole.iter().map(|[a, b, c, d]| [*d, *c, *b, *a]).collect();
+    assert_eq!(made(&turned), Some(DiffractionError::InsideOut(1)));
+    let mut one_turned = whole.clone();
+    one_turned[2].reverse();
+    assert!(matches!(made(&one_turned), Some(DiffractionError::OpenMesh { .. })));
+}
+
+#[test]
+fn bodies_that_overlap_or_touch_are_refused() {
+    let made = |x: f64| DiffractionProblem::new(&[body(&box_at(0.0)), body(&box_at(x))], WATER).err();
+    assert_eq!(made(1.2), None);
+    for x in [1.0, 0.9, 0.0] {
+        assert!(matches!(made(x), Some(DiffractionError::Overlap { .. })), "{x}");
+    }
 }

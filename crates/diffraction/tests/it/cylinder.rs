@@ -128,3 +128,59 @@ fn two_cylinders_shelter_each_other_as_exact_series() {
         }
     }
 }
+
+/// A floating annulus about the z axis, 2 outside and 0.5 inside, 1 deep.
+fn annulus(turns: usize) -> HullMesh {
+    let (outer, inner, draught, rows, rings) = (2.0, 0.5, 1.0, 8, 10);
+    let clean = |x: f64| if x.abs() < 1e-15 { 0.0 } else { x };
+    let step = 0.5 * PI / turns as f64;
+    let at = |r: f64, j: usize, z: f64| {
+        let angle = step * j as f64;
+        Vector3::new(clean(r * angle.cos()), clean(r * angle.sin()), z)
+    };
+    let height = |k: usize| -draught * k as f64 / rows as f64;
+    let radius = |i: usize| outer + (inner - outer) * 0.5 * (1.0 - (PI * i as f64 / rings as f64).cos());
+    let mut quads = Vec::new();
+    for j in 0..turns {
+        for k in 0..rows {
+            let [top, bottom] = [height(k), height(k + 1)];
+            quads.push([at(outer, j, top), at(outer, j, bottom), at(outer, j + 1, bottom), at(outer, j + 1, top)]);
+            quads.push([at(inner, j + 1, top), at(inner, j + 1, bottom), at(inner, j, bottom), at(inner, j, top)]);
+        }
+        for i in 0..rings {
+            let [out, inside, z] = [radius(i), radius(i + 1), -draught];
+            quads.push([at(out, j, z), at(inside, j, z), at(inside, j + 1, z), at(out, j + 1, z)]);
+        }
+    }
+    HullMesh::new(&quads, MirrorPlanes { x: true, y: true }).unwrap()
+}
+
+#[test]
+fn piston_mode_of_annulus_stays_with_lid() {
+    // the water in the pool moves as a piston whose length is the draught and the end correction of an open pipe, 0.61 radii without
+    // a flange and 0.85 with an infinite one [RAYLEIGH-1896 312, app. A]
+    let plain = annulus(6);
+    let closed = plain.with_lid().unwrap();
+    let area: f64 = closed.lid().iter().map(|panel| panel.area).sum();
+    // a quarter of two polygons of 24 sides
+    let exact = 3.0 * (PI / 12.0).sin() * (4.0 - 0.25);
+    assert!((area / exact - 1.0).abs() < 0.01, "{area} {exact}");
+    let water = Water { density: 1000.0, gravity: 9.81, depth: None };
+    let peak = |mesh: &HullMesh| {
+        let problem = DiffractionProblem::new(&[DiffractionBody { mesh: mesh.clone(), origin: Vector3::zeros() }], water);
+        let problem = problem.unwrap();
+        let fixed = vec![vec![Complex::default(); 6]];
+        let rise = |k: f64| {
+            let waves = problem.solve_waves((k * 9.81).sqrt(), &[0.0]).unwrap();
+            waves.elevations(&fixed, &[[0.0, 0.0]]).unwrap()[0][0].norm()
+        };
+        (0..=14)
+            .map(|i| 0.62 + 0.015 * f64::from(i))
+            .map(|k| (k, rise(k)))
+            .fold((0.0, 0.0), |best: (f64, f64), at| if at.1 > best.1 { at } else { best })
+    };
+    let ((with, high), (without, other)) = (peak(&closed), peak(&plain));
+    assert!((1.0 / (1.0 + 0.85 * 0.5)..1.0 / (1.0 + 0.61 * 0.5)).contains(&with), "{with} {high}");
+    // so sharp a peak is met by chance
+    assert!((with - without).abs() < 0.016 && high.min(other) > 10.0, "{with} {high} {without} {other}");
+}

@@ -35,8 +35,8 @@ pub struct DatabaseLoads {
 /// of a product of two motions. The rates of a step have that of the step before added, by which its rotation went beyond the mean of its rates:
 /// their mean is that of the rotation itself.
 #[derive(Clone, Copy, Debug)]
-struct LinearMotion {
-    slow: LowFrequency,
+pub(super) struct LinearMotion {
+    pub(super) slow: LowFrequency,
 }
 
 /// Where a state of [`LinearMotion`] has the heading, what gives rates of small rotations of that of rotation, what is added to them in the step, and
@@ -48,9 +48,9 @@ const NEXT_STATE: usize = ADDED_STATE + 3;
 const LAST_STATE: usize = NEXT_STATE + 3;
 
 impl LinearMotion {
-    const STATES: usize = LAST_STATE + 8;
+    pub(super) const STATES: usize = LAST_STATE + 8;
 
-    fn begin(&self, ahead: &BodyStep, state: &mut [f64]) {
+    pub(super) fn begin(&self, ahead: &BodyStep, state: &mut [f64]) {
         let (own, kept) = state.split_at_mut(HEADING_STATE);
         let slow = self.slow.predict(ahead, own);
         let rates = slow.rates(&ahead.pose.axes);
@@ -60,7 +60,7 @@ impl LinearMotion {
         state.copy_within(NEXT_STATE..LAST_STATE, ADDED_STATE);
     }
 
-    fn commit(&self, at: &BodyStep, state: &mut [f64]) {
+    pub(super) fn commit(&self, at: &BodyStep, state: &mut [f64]) {
         let slow = LowFrequencyPosition { heading: state[HEADING_STATE], ..LowFrequencyPosition::default() };
         let (angle, rates) = (slow.rotation(&at.pose.axes), slow.rates(&at.pose.axes) * at.velocity.fixed_rows::<3>(3));
         let last = |from: usize| {
@@ -78,7 +78,7 @@ impl LinearMotion {
     }
 
     /// The axes of the heading.
-    fn axes(state: &[f64]) -> Matrix3<f64> {
+    pub(super) fn axes(state: &[f64]) -> Matrix3<f64> {
         LowFrequencyPosition { heading: state[HEADING_STATE], ..LowFrequencyPosition::default() }.axes()
     }
 
@@ -88,7 +88,7 @@ impl LinearMotion {
     }
 
     /// The rates of the place and of small rotations, in axes of the heading.
-    fn velocity(at: &BodyStep, state: &[f64]) -> Six {
+    pub(super) fn velocity(at: &BodyStep, state: &[f64]) -> Six {
         let along = LinearMotion::axes(state).transpose() * at.velocity.fixed_rows::<3>(0);
         let added = Vector3::from_iterator(state.iter().skip(ADDED_STATE).copied().chain([0.0; 3]).take(3));
         let turning = LinearMotion::rates(state) * at.velocity.fixed_rows::<3>(3) + added;
@@ -104,10 +104,16 @@ impl LinearMotion {
 
     /// A force, and its change with [`LinearMotion::velocity`], -dF/dv, in global axes.
     fn load(force: &Six, damping: &Matrix6<f64>, state: &[f64]) -> DynamicLoad {
-        let (axes, rates) = (LinearMotion::axes(state), LinearMotion::rates(state));
+        LinearMotion::load_between(force, damping, state, state)
+    }
+
+    /// The same of a force on one body that changes with the motion of another.
+    pub(super) fn load_between(force: &Six, damping: &Matrix6<f64>, state: &[f64], other: &[f64]) -> DynamicLoad {
+        let (axes, others, rates) =
+            (LinearMotion::axes(state), LinearMotion::axes(other), LinearMotion::rates(other));
         let mut global = Matrix6::zeros();
         for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-            let turned = if column == 0 { axes.transpose() } else { rates };
+            let turned = if column == 0 { others.transpose() } else { rates };
             let block = axes * damping.fixed_view::<3, 3>(row, column) * turned;
             global.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
         }
@@ -130,11 +136,7 @@ impl RadiationLoad {
     /// # Errors
     /// More steps than are kept.
     pub fn new(radiation: &Radiation, (step, length): (f64, f64), dividing: f64) -> Result<Self, ClassError> {
-        let lags = length / step;
-        if !(lags.is_finite() && lags >= 1.0 && lags <= MAX_LAGS as f64) {
-            let text = format!("a memory of {length} s in steps of {step} s is none of 1 to {MAX_LAGS} steps");
-            return Err(ClassError::new(text));
-        }
+        check_lags(length, step)?;
         let kernel = |time: f64| radiation.tapered_retardation(time, length);
         let memory = RetardationMemory::new(&kernel, (radiation.finest(), length), step);
         Ok(RadiationLoad { memory, linear: LinearMotion { slow: LowFrequency::new(dividing) } })
@@ -190,6 +192,20 @@ impl PreparedLoad for RadiationLoad {
         let (own, memory) = state.split_at(LinearMotion::STATES);
         LinearMotion::global(&self.memory.force(&LinearMotion::velocity(at, own), memory).0, own)
     }
+}
+
+/// Sees that a memory (s) in steps (s) is one that is kept.
+pub(super) fn check_lags(length: f64, step: f64) -> Result<(), ClassError> {
+    let lags = length / step;
+    if lags.is_finite() && lags >= 1.0 && lags <= MAX_LAGS as f64 {
+        return Ok(());
+    }
+    Err(ClassError::new(format!("a memory of {length} s in steps of {step} s is none of 1 to {MAX_LAGS} steps")))
+}
+
+/// The step of the memory in a model (s).
+pub(super) fn memory_step(model: &Model) -> f64 {
+    model.environment.time.map_or(USUAL_STEP, |t| t.step)
 }
 
 /// Linear damping of a body with a database (`#DRAG`, `#DAMP`): as its radiation it is about the low-frequency heading.
@@ -320,7 +336,7 @@ pub fn gather_database_loads(
             carried.push(Box::new(AddedMassLoad { infinite, linear }));
         }
         if under_way.is_some() {
-            let step = model.environment.time.map_or(USUAL_STEP, |t| t.step);
+            let step = memory_step(model);
             let length = attached.memory.unwrap_or_else(|| radiation.memory());
             loads.push(Box::new(RadiationLoad::new(&radiation, (step, length), dividing)?));
         }

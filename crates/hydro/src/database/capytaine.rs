@@ -10,7 +10,7 @@ use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
 use nalgebra::{Complex, Matrix6, Vector3};
 use netcdf_reader::{NcFile, NcOpenOptions};
-use windlass_model::{Amplitudes, Database};
+use windlass_model::{Amplitudes, Database, Interaction};
 
 /// Names of the directions in Capytaine.
 const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
@@ -99,27 +99,16 @@ impl Set<'_> {
 
     /// The directions of the body on a dimension of the data set.
     fn directions(&self, dimension: &str, body: Option<usize>) -> Result<BodyDirections, DatabaseError> {
-        let words = self.words(dimension)?;
-        let split = |w: &String| match w.rsplit_once("__") {
-            Some((body, dof)) => (body.to_string(), dof.to_ascii_uppercase()),
-            None => (String::new(), w.to_ascii_uppercase()),
-        };
-        let named: Vec<(String, String)> = words.iter().map(split).collect();
-        let mut bodies: Vec<&String> = Vec::new();
-        for (name, _) in &named {
-            if !bodies.contains(&name) {
-                bodies.push(name);
-            }
-        }
+        let (named, bodies) = self.named_directions(dimension)?;
         let chosen = match (body, bodies.as_slice()) {
-            (None, [one]) => *one,
+            (None, [one]) => one,
             (None, list) => {
-                let names = list.iter().map(|n| n.as_str()).collect::<Vec<_>>().join(", ");
-                let text = format!("it has {} bodies ({names}): -INDEX says which one to take", list.len());
+                let text =
+                    format!("it has {} bodies ({}): -INDEX says which one to take", list.len(), list.join(", "));
                 return Err(self.error(text));
             }
             (Some(n), list) => match n.checked_sub(1).and_then(|i| list.get(i)) {
-                Some(one) => *one,
+                Some(one) => one,
                 None => return Err(self.error(format!("there is no body {n}: it has {}", list.len()))),
             },
         };
@@ -134,6 +123,23 @@ impl Set<'_> {
             found.push((index, mode));
         }
         Ok(found)
+    }
+
+    /// Body and direction of each place on a dimension, and the bodies, in their order.
+    fn named_directions(&self, dimension: &str) -> Result<(Vec<(String, String)>, Vec<String>), DatabaseError> {
+        let words = self.words(dimension)?;
+        let split = |w: &String| match w.rsplit_once("__") {
+            Some((body, dof)) => (body.to_string(), dof.to_ascii_uppercase()),
+            None => (String::new(), w.to_ascii_uppercase()),
+        };
+        let named: Vec<(String, String)> = words.iter().map(split).collect();
+        let mut bodies: Vec<String> = Vec::new();
+        for (name, _) in &named {
+            if !bodies.contains(name) {
+                bodies.push(name.clone());
+            }
+        }
+        Ok((named, bodies))
     }
 
     /// A matrix of two dimensions of directions, at places of the others.
@@ -207,6 +213,27 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
                     data.damping.push(of(&damping, *position));
                 }
             }
+        }
+        let (_, bodies) = set.named_directions("radiating_dof")?;
+        let own = body.unwrap_or(1) - 1;
+        data.index = own;
+        for index in (0..bodies.len()).filter(|index| *index != own) {
+            let others = set.directions("radiating_dof", Some(index + 1))?;
+            let of = |v: &Variable, at: usize| set.matrix(v, (&rigid, &others), at, along);
+            let mut made = Interaction { index, ..Interaction::default() };
+            for (position, w) in &order {
+                match *w {
+                    0.0 => {}
+                    f64::INFINITY => {
+                        made.infinite = Some(of(&added, *position)).filter(|m| m.iter().all(|v| v.is_finite()));
+                    }
+                    _ => {
+                        made.added_mass.push(of(&added, *position));
+                        made.damping.push(of(&damping, *position));
+                    }
+                }
+            }
+            data.interactions.push(made);
         }
         if set.has("hydrostatic_stiffness") {
             data.hydrostatics = Some(of(&set.numbers("hydrostatic_stiffness")?, 0));

@@ -140,13 +140,40 @@ impl RetardationMemory {
             let kind = if i < 3 { &sizes[..3] } else { &sizes[3..] };
             sizes[i] > 1e-18 * kind.iter().copied().fold(0.0, f64::max)
         };
+        let limit = |row: usize, column: usize| {
+            (radiates(row) && radiates(column)).then(|| 1e-9 * (sizes[row] * sizes[column]).sqrt())
+        };
+        RetardationMemory::of_pairs(integrals, length, step, &limit)
+    }
+
+    /// The same of forces on one body by velocities of another, between which every pair of directions may be the largest: pairs below 1e-9 of the
+    /// largest of their kind are nothing.
+    pub fn between_bodies(kernel: &dyn Fn(f64) -> Matrix6<f64>, (fine, length): (f64, f64), step: f64) -> Self {
+        let integrals = Integrals::new(kernel, length, fine);
+        let largest = |rows: usize, columns: usize| {
+            let blocks = integrals.list.iter().map(|m| m.kernel.fixed_view::<3, 3>(rows, columns).amax());
+            blocks.fold(0.0, f64::max)
+        };
+        let sizes = [[largest(0, 0), largest(0, 3)], [largest(3, 0), largest(3, 3)]];
+        let limit = |row: usize, column: usize| Some(1e-9 * sizes[row / 3][column / 3]);
+        RetardationMemory::of_pairs(integrals, length, step, &limit)
+    }
+
+    /// The pairs of directions whose kernel is above a limit somewhere; none: nothing.
+    fn of_pairs(
+        integrals: Integrals,
+        length: f64,
+        step: f64,
+        limit: &dyn Fn(usize, usize) -> Option<f64>,
+    ) -> Self {
         let lags = (length / step).ceil().clamp(1.0, MAX_LAGS as f64) as usize + 1;
         let seconds: Vec<Matrix6<f64>> =
             (0..=lags + 1).map(|n| integrals.integrals_at_lag(n as f64 * step).1).collect();
         let mut pairs = Vec::new();
-        for (row, of_row) in sizes.iter().enumerate().filter(|(i, _)| radiates(*i)) {
-            for (column, of_column) in sizes.iter().enumerate().filter(|(i, _)| radiates(*i)) {
-                let (limit, at) = (1e-9 * (of_row * of_column).sqrt(), (row, column));
+        for row in 0..6 {
+            for column in 0..6 {
+                let Some(limit) = limit(row, column) else { continue };
+                let at = (row, column);
                 if integrals.list.iter().any(|m| m.kernel[at].abs() > limit) {
                     let of = |w: &[Matrix6<f64>]| match w {
                         [a, b, c] => (a[at] - 2.0 * b[at] + c[at]) / step,

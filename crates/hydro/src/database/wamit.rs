@@ -9,13 +9,14 @@
 //! refer to the origin, about which moments are.
 
 use super::checks::{MAX_DATABASE_NUMBERS, check_database};
-use super::matrices::{by_frequency, matrix};
+use super::matrices::{PairRow, by_frequency, matrix};
 use super::rows::{
     ByWave, DatabaseError, ModeRow, NumberRow, SourceFile, by_wave, heading, same_frequency, same_heading,
 };
 use nalgebra::{Complex, Matrix6, Vector3};
+use std::collections::BTreeMap;
 use std::f64::consts::TAU;
-use windlass_model::{Amplitudes, Database, DriftTable, Qtf};
+use windlass_model::{Amplitudes, Database, DriftTable, Interaction, Qtf};
 
 /// What the files of one WAMIT run do not say themselves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,12 +108,25 @@ pub(super) fn frequency(file: &SourceFile, row: &NumberRow, column: usize) -> Re
 fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Result<(), DatabaseError> {
     let mut rows: Vec<(f64, usize, [f64; 2])> = Vec::new();
     let (mut infinite, mut zero) = (Vec::new(), Vec::new());
+    // of the motions of other bodies, by their number from 0
+    let mut others: BTreeMap<usize, (Vec<PairRow>, Vec<(usize, f64)>)> = BTreeMap::new();
+    data.index = scale.body.unwrap_or(1) - 1;
     for row in file.rows(4)? {
-        let (Some(i), Some(j)) = (mode_of(file, &row, 1, scale)?, mode_of(file, &row, 2, scale)?) else { continue };
+        let (own, by) = (mode_of(file, &row, 1, scale)?, mode_of(file, &row, 2, scale)?);
+        let (Some(i), Some(j)) = (own, by.or_else(|| row.ordinal(2).map(|number| (number - 1) % 6))) else { continue };
+        let other = by.is_none().then(|| row.ordinal(2).map_or(0, |number| (number - 1) / 6));
         let power = 3 + i32::from(i >= 3) + i32::from(j >= 3);
         let unit = scale.density * scale.length.powi(power);
         let (period, added) = (row.number(0), row.number(3) * unit);
-        if period == 0.0 {
+        if let Some(other) = other {
+            let (rows, infinite) = others.entry(other).or_default();
+            if period == 0.0 {
+                infinite.push((6 * i + j, added));
+            } else if period > 0.0 && row.count >= 5 {
+                let w = frequency(file, &row, 0)?;
+                rows.push((w, 6 * i + j, [added, row.number(4) * unit * w]));
+            }
+        } else if period == 0.0 {
             infinite.push((6 * i + j, added));
         } else if period < 0.0 {
             zero.push((6 * i + j, added));
@@ -128,16 +142,25 @@ fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Resu
     let limit = |rows: &[(usize, f64)]| (!rows.is_empty()).then(|| matrix(rows.iter().copied()));
     (data.frequencies, data.added_mass, data.damping) = (table.frequencies, table.added_mass, table.damping);
     (data.infinite, data.zero) = (limit(&infinite), limit(&zero));
-    exchanged_limits(data);
+    let marks_exchanged = exchanged_limits(data);
+    for (index, (rows, infinite)) in others {
+        let table = by_frequency(file, &rows)?;
+        if table.frequencies.len() != data.frequencies.len() {
+            return Err(file.error(format!("body {} has other frequencies than this one", index + 1)));
+        }
+        let infinite = limit(&infinite).filter(|_| !marks_exchanged);
+        let (added_mass, damping) = (table.added_mass, table.damping);
+        data.interactions.push(Interaction { index, added_mass, damping, infinite, place: None });
+    }
     Ok(())
 }
 
 /// Puts right the limits of a file whose writer exchanged the marks of zero and infinite frequency (a version of Capytaine did).
-fn exchanged_limits(data: &mut Database) {
+fn exchanged_limits(data: &mut Database) -> bool {
     let (Some(infinite), Some(zero), Some(low), Some(high)) =
         (data.infinite, data.zero, data.added_mass.first(), data.added_mass.last())
     else {
-        return;
+        return false;
     };
     // translations only: rotations of a body may be nothing but rounding
     let off = |a: &Matrix6<f64>, b: &Matrix6<f64>| (0..3).map(|i| (a[(i, i)] - b[(i, i)]).powi(2)).sum::<f64>().sqrt();
@@ -146,7 +169,9 @@ fn exchanged_limits(data: &mut Database) {
         let text =
             "the rows of period 0 hold the limit of long waves and those of -1 that of short ones: they are exchanged";
         data.remarks.push(text.into());
+        return true;
     }
+    false
 }
 
 /// Rows `PER BETA I Mod Pha Re Im`, each times the unit of its mode.

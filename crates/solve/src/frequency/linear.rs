@@ -1,7 +1,7 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
 use crate::modes::solve_least_motion;
-use crate::system::{DOFS, SolveError, System, SystemState, mass_block};
+use crate::system::{DOFS, SolveError, System, SystemState, between_poses, mass_block};
 use crate::time::{BodyForces, BodyMotion, LoadMemory, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
@@ -9,12 +9,13 @@ use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
+use windlass_hydro::database::interaction::interaction_about_origins;
 use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
 use windlass_model::{
-    Amplitudes, AttachedDatabase, ClassError, DriftMethod, DriftTable, Model, Piece, TimeStep, WaveAction,
+    Amplitudes, AttachedDatabase, ClassError, Database, DriftMethod, DriftTable, Model, Piece, TimeStep, WaveAction,
 };
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
@@ -67,12 +68,43 @@ pub struct LinearSystem {
     /// The degrees of freedom that have inertia.
     heavy: Vec<usize>,
     pub(super) floats: Vec<Option<Floats>>,
+    /// Radiated waves of bodies as they act on others.
+    interactions: Vec<LinearInteraction>,
     /// Depth with the tide (m).
     pub(super) depth: Option<f64>,
     /// The velocity all bodies sail with (m/s, global plan); zero of bodies that keep their place.
     speed: [f64; 2],
     /// What a user should know.
     pub notes: Vec<TableNote>,
+}
+
+/// Radiated waves of a body as they act on another, by their numbers.
+#[derive(Clone, Debug)]
+struct LinearInteraction {
+    on: usize,
+    by: usize,
+    /// About the origins of both.
+    data: Database,
+    /// Its added mass at infinite frequency, as the system has it.
+    infinite: Matrix6<f64>,
+    /// Multiplier of R_DRAG.
+    factor: f64,
+}
+
+impl LinearInteraction {
+    fn all(model: &Model, system: &System) -> Result<Vec<Self>, SolveError> {
+        let number = |key: &str| system.nodes.iter().position(|node| node.key == key);
+        let mut list = Vec::new();
+        for pair in model.interactions() {
+            let (Some(on), Some(by)) = (number(pair.on.0), number(pair.by.0)) else { continue };
+            let Some(data) = interaction_about_origins(&pair) else { continue };
+            let radiation = Radiation::new(&data).map_err(SolveError::error_about(&pair.on.1.name))?;
+            let Some(radiation) = radiation else { continue };
+            let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
+            list.push(LinearInteraction { on, by, data, infinite: radiation.infinite, factor });
+        }
+        Ok(list)
+    }
 }
 
 impl Floats {
@@ -113,6 +145,7 @@ impl LinearSystem {
             }
             floats.push(made);
         }
+        let interactions = LinearInteraction::all(model, &system)?;
         let moving = calm(model)?;
         let still = vec![Six::zeros(); state.poses.len()];
         let damping = damping(&moving, &state.poses, &still, &mut BodyForces::default())?;
@@ -133,6 +166,7 @@ impl LinearSystem {
             follow,
             heavy,
             floats,
+            interactions,
             depth,
             speed: [0.0; 2],
             notes,
@@ -282,6 +316,18 @@ impl LinearSystem {
                 block += in_pose(&(own * *radiated), pose);
             }
         }
+        for LinearInteraction { on, by, data, infinite, factor } in &self.interactions {
+            let (Some(own), Some(other)) = (self.poses.get(*on), self.poses.get(*by)) else { continue };
+            if let Some(added) = data.added_mass_at(frequency) {
+                let mut block = mass.fixed_view_mut::<6, 6>(6 * on, 6 * by);
+                // the system has that of the infinite frequency
+                block += between_poses(&((added - infinite) * *factor), own, other);
+            }
+            if let Some(radiated) = data.damping_at(frequency) {
+                let mut block = damping.fixed_view_mut::<6, 6>(6 * on, 6 * by);
+                block += between_poses(&(radiated * *factor), own, other);
+            }
+        }
         (mass, damping)
     }
 
@@ -315,7 +361,19 @@ impl LinearSystem {
     /// # Errors
     /// A motion without bound: no damping at its natural period.
     pub fn motions(&self, frequency: f64, forces: &[Motions]) -> Result<Vec<Motions>, SolveError> {
-        let (mass, damping) = self.inertia_and_damping(frequency.abs());
+        self.motions_with(frequency, self.inertia_and_damping(frequency.abs()), forces)
+    }
+
+    /// The same with given mass with added mass, and damping, six a body.
+    ///
+    /// # Errors
+    /// As [`LinearSystem::motions`].
+    pub fn motions_with(
+        &self,
+        frequency: f64,
+        (mass, damping): (DMatrix<f64>, DMatrix<f64>),
+        forces: &[Motions],
+    ) -> Result<Vec<Motions>, SolveError> {
         let real = &self.stiffness - mass * (frequency * frequency);
         let to = self.follow.transpose();
         let (real, damping) = (&to * real * &self.follow, &to * damping * &self.follow);

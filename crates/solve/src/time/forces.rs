@@ -5,11 +5,12 @@ use super::force_predictor::ForcePredictor;
 use super::inertia::rotated_added_inertia;
 use super::parallel::LineTask;
 use crate::link::{EndAttachment, Link};
-use crate::system::{SolveError, System, SystemBody};
+use crate::system::{BodyInteraction, SolveError, System, SystemBody};
 use crate::ties::Ties;
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::ops::Range;
 use windlass_base::pose::{Pose, Six};
+use windlass_hydro::database::interaction::{InteractionLoad, InteractionStep};
 use windlass_hydro::{BodyLoad, BodyStep, Category, DynamicLoad, move_stiffness, move_wrench, turning};
 use windlass_model::{AnchoredResponse, ConnectorResponse, End, Situation, SolverCache, TimeStep};
 
@@ -38,6 +39,8 @@ pub struct LoadMemory {
     pub loads: Vec<f64>,
     /// Where those of each load of each body stand.
     pub(super) ranges: Vec<Vec<Range<usize>>>,
+    /// Where those of each interaction of bodies stand.
+    interactions: Vec<Range<usize>>,
     /// What the loads of each body hold ready for the step, beyond what they held for the step before.
     ahead: Vec<Six>,
 }
@@ -54,6 +57,11 @@ impl LoadMemory {
                 ranges.push(from..memory.loads.len());
             }
             memory.ranges.push(ranges);
+        }
+        for between in &system.interactions {
+            let from = memory.loads.len();
+            memory.loads.resize(from + between.load.as_ref().map_or(0, InteractionLoad::states), 0.0);
+            memory.interactions.push(from..memory.loads.len());
         }
         memory
     }
@@ -78,6 +86,18 @@ impl LoadMemory {
             let Some(found) = earlier.iter().position(same) else { continue };
             let (_, from) = earlier.remove(found);
             self.loads[range.clone()].copy_from_slice(&memory.loads[from.clone()]);
+        }
+    }
+
+    /// Gives the interactions of bodies what those of an earlier system remembered.
+    pub(crate) fn recall_interactions(&mut self, system: &System, memory: &LoadMemory, old: &[BodyInteraction]) {
+        for (between, range) in system.interactions.iter().zip(&self.interactions) {
+            let same = |(old, from): &(&BodyInteraction, &Range<usize>)| {
+                old.on == between.on && old.by == between.by && from.len() == range.len()
+            };
+            if let Some((_, from)) = old.iter().zip(&memory.interactions).find(same) {
+                self.loads[range.clone()].copy_from_slice(&memory.loads[from.clone()]);
+            }
         }
     }
 
@@ -108,6 +128,17 @@ impl LoadMemory {
             }
             self.ahead.push(more);
         }
+        for (between, range) in system.interactions.iter().zip(&self.interactions) {
+            let (Some(load), Some(at)) = (&between.load, interaction_step(between, ahead, TimeStep { time, dt })) else {
+                continue;
+            };
+            let state = &mut self.loads[range.clone()];
+            let before = load.force(&at.by, state).wrench;
+            load.begin(&at, state);
+            if let Some(more) = self.ahead.get_mut(between.on) {
+                *more += load.force(&at.by, state).wrench - before;
+            }
+        }
         Ok(())
     }
 
@@ -121,7 +152,23 @@ impl LoadMemory {
                 }
             }
         }
+        for (between, range) in system.interactions.iter().zip(&self.interactions) {
+            let at = interaction_step(between, motions, TimeStep { time, dt });
+            if let (Some(load), Some(at)) = (&between.load, at) {
+                load.commit(&at, &mut self.loads[range.clone()]);
+            }
+        }
     }
+}
+
+/// The two bodies of an interaction at the end of a step.
+fn interaction_step<'a>(
+    between: &BodyInteraction,
+    motions: &'a [BodyMotion],
+    TimeStep { time, dt }: TimeStep,
+) -> Option<InteractionStep<'a>> {
+    let step = |motion: &'a BodyMotion| BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+    Some(InteractionStep { on: step(motions.get(between.on)?), by: step(motions.get(between.by)?) })
 }
 
 /// Forces at an instant, six a body about its origin, global axes.
@@ -275,6 +322,18 @@ impl BodyForces {
                 let mut block = self.stiffness.fixed_view_mut::<6, 6>(6 * body, 6 * body);
                 block += rotated_added_inertia(&linear, &motion.velocity);
             }
+        }
+        for (between, range) in system.interactions.iter().zip(&memory.interactions) {
+            let (Some(load), Some(motion)) = (&between.load, motions.get(between.by)) else { continue };
+            let at = BodyStep { time, dt, pose: &motion.pose, velocity: &motion.velocity };
+            let made = load.force(&at, &memory.loads[range.clone()]);
+            self.add(between.on, Category::RadiationDrag.index(), &made.wrench);
+            self.add(between.on, Category::AddedInertia.index(), &-(made.inertia * motion.acceleration));
+            let mut block = self.damping.fixed_view_mut::<6, 6>(6 * between.on, 6 * between.by);
+            block += made.damping;
+            let mut block = self.inertia.fixed_view_mut::<6, 6>(6 * between.on, 6 * between.by);
+            block += made.inertia;
+            self.has_load_inertia = true;
         }
         for (body, wrench) in system.applied.iter().filter(|(body, _)| *body < system.nodes.len()) {
             self.add(*body, Category::Applied.index(), wrench);

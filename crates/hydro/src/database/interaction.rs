@@ -1,0 +1,144 @@
+//! Radiated waves of a body as they act on another body of the same source: `F(t) = -A(inf) a(t) - int_0^T K(s) v(t - s) ds` with the
+//! motions of the other body, about the origins of both.
+
+use super::attached::LinearMotion;
+use super::memory::RetardationMemory;
+use super::radiation::Radiation;
+use crate::body_load::{BodyStep, DynamicLoad};
+use crate::low_frequency::{LowFrequency, dividing_period};
+use crate::sea::Sea;
+use crate::{Category, move_stiffness};
+use nalgebra::Matrix6;
+use windlass_base::pose::Six;
+use windlass_model::{ClassError, Database, InteractingBodies, Model};
+
+/// The interaction as the radiation of one body: about the origins of both, in the axes of each.
+pub fn interaction_about_origins(pair: &InteractingBodies) -> Option<Database> {
+    let own = pair.on.1.database.as_ref()?;
+    let other = pair.by.1.database.as_ref()?;
+    let moved = |block: &Matrix6<f64>| move_stiffness(block, own.data.reference, other.data.reference);
+    Some(Database {
+        source: own.data.source.clone(),
+        frequencies: own.data.frequencies.clone(),
+        added_mass: pair.interaction.added_mass.iter().map(moved).collect(),
+        damping: pair.interaction.damping.iter().map(moved).collect(),
+        infinite: pair.interaction.infinite.as_ref().map(moved),
+        ..Database::default()
+    })
+}
+
+/// Forces of the waves that a body radiates on another, in time.
+#[derive(Clone, Debug)]
+pub struct InteractionLoad {
+    memory: RetardationMemory,
+    /// About the origins of both bodies, in axes of their low-frequency headings (kg, kg m, kg m2).
+    infinite: Matrix6<f64>,
+    linear: LinearMotion,
+}
+
+/// A force on a body by motions of another, and how it changes with them; global axes.
+#[derive(Clone, Copy, Debug)]
+pub struct InteractionForce {
+    /// Force and moment about the origin of the body that it is on, without that of accelerations.
+    pub wrench: Six,
+    /// -d(wrench)/d(velocity of the other body).
+    pub damping: Matrix6<f64>,
+    /// -d(wrench)/d(acceleration of the other body).
+    pub inertia: Matrix6<f64>,
+}
+
+/// The two bodies of an interaction at the end of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct InteractionStep<'a> {
+    /// The body that the force is on.
+    pub on: BodyStep<'a>,
+    /// The body whose motions make it.
+    pub by: BodyStep<'a>,
+}
+
+impl InteractionLoad {
+    /// Number of values of its state.
+    pub fn states(&self) -> usize {
+        2 * LinearMotion::STATES + self.memory.states()
+    }
+
+    /// Prepares a step.
+    pub fn begin(&self, ahead: &InteractionStep, state: &mut [f64]) {
+        let (on, rest) = state.split_at_mut(LinearMotion::STATES);
+        let (by, memory) = rest.split_at_mut(LinearMotion::STATES);
+        self.linear.begin(&ahead.on, on);
+        self.linear.begin(&ahead.by, by);
+        self.memory.begin(ahead.by.time, ahead.by.dt, memory);
+    }
+
+    /// The step is accepted.
+    pub fn commit(&self, at: &InteractionStep, state: &mut [f64]) {
+        let (on, rest) = state.split_at_mut(LinearMotion::STATES);
+        let (by, memory) = rest.split_at_mut(LinearMotion::STATES);
+        self.memory.commit(at.by.time, at.by.dt, &LinearMotion::velocity(&at.by, by), memory);
+        self.linear.commit(&at.on, on);
+        self.linear.commit(&at.by, by);
+    }
+
+    /// The force at a trial of the end of a step of the other body.
+    pub fn force(&self, by: &BodyStep, state: &[f64]) -> InteractionForce {
+        let (on_state, rest) = state.split_at(LinearMotion::STATES);
+        let (by_state, memory) = rest.split_at(LinearMotion::STATES);
+        let (force, damping) = self.memory.force(&LinearMotion::velocity(by, by_state), memory);
+        let DynamicLoad { load, damping } = LinearMotion::load_between(&force, &damping, on_state, by_state);
+        let (axes, others) = (LinearMotion::axes(on_state), LinearMotion::axes(by_state));
+        let mut inertia = Matrix6::zeros();
+        for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
+            let block = axes * self.infinite.fixed_view::<3, 3>(row, column) * others.transpose();
+            inertia.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+        }
+        InteractionForce { wrench: load.wrench, damping, inertia }
+    }
+}
+
+/// An interaction ready for a run or for a place at rest.
+#[derive(Clone, Debug)]
+pub struct GatheredInteraction {
+    /// Key of the body that the force is on, and of that whose motions make it.
+    pub bodies: [String; 2],
+    /// Added mass at infinite frequency about the origins, in the axes of each body (kg, kg m, kg m2).
+    pub infinite: Matrix6<f64>,
+    /// The load in time; none at rest.
+    pub load: Option<InteractionLoad>,
+}
+
+/// All interactions of a model; `under_way` with the sea there is.
+///
+/// # Errors
+/// Databases of one frequency; a memory of more steps than are kept.
+pub fn gather_interactions(
+    model: &Model,
+    under_way: Option<Option<&Sea>>,
+) -> Result<Vec<GatheredInteraction>, ClassError> {
+    let mut list = Vec::new();
+    for pair in model.interactions() {
+        let Some(data) = interaction_about_origins(&pair) else { continue };
+        let Some(radiation) = Radiation::new(&data)? else { continue };
+        let load = match under_way {
+            None => None,
+            Some(sea) => {
+                let attached = pair.on.1.database.as_ref();
+                let own = attached.map(|attached| Radiation::new(&attached.data)).transpose()?.flatten();
+                let usual = own.as_ref().map_or_else(|| radiation.memory(), Radiation::memory);
+                let length = attached.and_then(|attached| attached.memory).unwrap_or(usual);
+                let step = super::attached::memory_step(model);
+                super::attached::check_lags(length, step)?;
+                let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
+                let kernel = |time: f64| radiation.tapered_retardation(time, length) * factor;
+                Some(InteractionLoad {
+                    memory: RetardationMemory::between_bodies(&kernel, (radiation.finest(), length), step),
+                    infinite: radiation.infinite,
+                    linear: LinearMotion { slow: LowFrequency::new(dividing_period(model, sea)) },
+                })
+            }
+        };
+        let bodies = [pair.on.0.to_owned(), pair.by.0.to_owned()];
+        list.push(GatheredInteraction { bodies, infinite: radiation.infinite, load });
+    }
+    Ok(list)
+}

@@ -1,0 +1,300 @@
+//! `G_MDRIFT`: mean drift of a body by its panels, with the motions that its mass, stiffness, moorings and damping give it where it stands.
+//!
+//! The drift of a database is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
+//! how far both agree.
+
+use crate::commands::Job;
+use crate::commands::model::panel_forces::{MeshedBodies, PanelRequest, progress_bar};
+use nalgebra::{Complex, DMatrix, Matrix6, Rotation3, Vector3};
+use std::f64::consts::TAU;
+use std::sync::Arc;
+use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::table::{Digits, Table};
+use windlass_base::units::Dim;
+use windlass_diffraction::{ControlSurfaceDrift, DiffractionError, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution};
+use windlass_hydro::database::DriftTable;
+use windlass_hydro::sea::dispersion::wave_number;
+use windlass_model::{Database, Model};
+use windlass_solve::SolveError;
+use windlass_solve::frequency::{LinearSystem, Motions};
+
+/// Far field and control surface that differ by more than this share of the largest drift are warned of.
+const POOR_AGREEMENT: f64 = 0.05;
+
+type C = Complex<f64>;
+
+/// What motions the bodies have in the waves.
+pub enum DriftSource {
+    /// Those of the equations of motion without the databases of the bodies.
+    Motions(Box<LinearSystem>),
+    /// None: the body is held.
+    Fixed,
+    /// There is no drift, and why.
+    None(String),
+}
+
+impl DriftSource {
+    /// What a report says of it.
+    pub fn said(&self) -> &'static str {
+        match self {
+            DriftSource::Motions(_) => "by the waves far away, of the body in motion",
+            DriftSource::Fixed => "by the waves far away, of the body held",
+            DriftSource::None(_) => "none",
+        }
+    }
+}
+
+/// The motions of bodies that are meshed.
+pub fn source(model: &Model, meshed: &MeshedBodies) -> DriftSource {
+    let [body] = meshed.bodies.as_slice() else {
+        return DriftSource::None("of several bodies the waves far away give the sum alone; #DRIFT gives it by records".into());
+    };
+    if model.bodies.get(&body.key).is_some_and(|body| body.ignored.len() >= MOTIONS) {
+        return DriftSource::Fixed;
+    }
+    let mut alone = model.clone();
+    if let Some(body) = alone.bodies.get_mut(&body.key) {
+        body.database = None;
+    }
+    match LinearSystem::new(&alone) {
+        Ok(linear) => DriftSource::Motions(Box::new(linear)),
+        Err(error) => DriftSource::None(said(error)),
+    }
+}
+
+/// An error in words, with whom it is about.
+fn said(error: SolveError) -> String {
+    match error.who {
+        Some(who) => format!("{who}: {}", error.error),
+        None => error.error.to_string(),
+    }
+}
+
+/// Motions in waves of unit amplitude, heading by heading, six a body in axes of the group, phases to its origin.
+fn motions(
+    linear: &LinearSystem,
+    meshed: &MeshedBodies,
+    forces: &FrequencyForces,
+    headings: &[f64],
+) -> Result<Vec<Vec<C>>, String> {
+    let frequency = forces.frequency;
+    let number = |key: &String| linear.system.nodes.iter().position(|node| node.key == *key);
+    let nodes: Vec<usize> = meshed
+        .bodies
+        .iter()
+        .map(|body| number(&body.key).ok_or_else(|| format!("{} does not move", body.name)))
+        .collect::<Result<_, _>>()?;
+    let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), meshed.heading);
+    let mut to_global = Matrix6::zeros();
+    for at in [0, 3] {
+        to_global.fixed_view_mut::<3, 3>(at, at).copy_from(turned.matrix());
+    }
+    let (mut mass, mut damping) = linear.inertia_and_damping(frequency);
+    for (i, row) in nodes.iter().enumerate() {
+        for (j, column) in nodes.iter().enumerate() {
+            let own = |all: &DMatrix<f64>| -> Matrix6<f64> {
+                let block = Matrix6::from_fn(|a, b| all[(MOTIONS * i + a, MOTIONS * j + b)]);
+                to_global * block * to_global.transpose()
+            };
+            let mut block = mass.fixed_view_mut::<6, 6>(MOTIONS * row, MOTIONS * column);
+            block += own(&forces.added_mass);
+            let mut block = damping.fixed_view_mut::<6, 6>(MOTIONS * row, MOTIONS * column);
+            block += own(&forces.damping);
+        }
+    }
+    let k = wave_number(frequency, meshed.water.depth, meshed.water.gravity).map_err(|error| error.to_string())?;
+    let phase = |toward: f64| {
+        C::from_polar(1.0, k * (meshed.place[0] * toward.cos() + meshed.place[1] * toward.sin()))
+    };
+    let mut loads: Vec<Motions> = Vec::new();
+    for (heading, own) in headings.iter().zip(&forces.excitation) {
+        let toward = heading + meshed.heading;
+        let mut all = linear.excitation(frequency, toward).map_err(said)?;
+        for (i, row) in nodes.iter().enumerate() {
+            for a in 0..MOTIONS {
+                let turned: C = (0..MOTIONS).map(|b| own[MOTIONS * i + b] * to_global[(a, b)]).sum();
+                all[MOTIONS * row + a] += turned * phase(toward);
+            }
+        }
+        loads.push(all);
+    }
+    let made = linear.motions_with(frequency, (mass, damping), &loads).map_err(said)?;
+    let in_group = |(heading, all): (&f64, &Motions)| {
+        let back = phase(heading + meshed.heading).conj();
+        let of_node = |row: &usize| {
+            let row = *row;
+            (0..MOTIONS).map(move |a| (0..MOTIONS).map(|b| all[MOTIONS * row + b] * to_global[(b, a)]).sum::<C>() * back)
+        };
+        nodes.iter().flat_map(of_node).collect()
+    };
+    Ok(headings.iter().zip(&made).map(in_group).collect())
+}
+
+/// Drift of a heading by the waves far away, with given motions.
+fn at_heading(waves: &WaveSolution, heading: usize, motions: &[C]) -> FarFieldDrift {
+    let none = FarFieldDrift { surge: 0.0, sway: 0.0, yaw: 0.0, energy_residual: 0.0 };
+    waves.far_field_drift(heading, motions).unwrap_or(none)
+}
+
+/// The drift of a frequency by the waves far away, heading by heading.
+///
+/// # Errors
+/// Motions that have no bound.
+pub fn far_field(
+    linear: &LinearSystem,
+    meshed: &MeshedBodies,
+    waves: &WaveSolution,
+    headings: &[f64],
+) -> Result<Vec<FarFieldDrift>, String> {
+    let motions = motions(linear, meshed, &waves.forces, headings)?;
+    Ok(motions.iter().enumerate().map(|(heading, motions)| at_heading(waves, heading, motions)).collect())
+}
+
+/// The same of a body that is held.
+pub fn far_field_fixed(waves: &WaveSolution, headings: &[f64]) -> Vec<FarFieldDrift> {
+    (0..headings.len()).map(|heading| at_heading(waves, heading, &[C::default(); MOTIONS])).collect()
+}
+
+/// Drift by heading of a database, then frequency, from that by frequency, then heading (rad) of the group.
+pub fn by_heading(headings: &[f64], turn: f64, wanted: &[f64], drifts: &[Vec<FarFieldDrift>]) -> Vec<Vec<[f64; 6]>> {
+    let off = |a: f64, b: f64| {
+        let turn = (a - b).rem_euclid(TAU);
+        turn.min(TAU - turn)
+    };
+    wanted
+        .iter()
+        .map(|heading| {
+            let nearest = (0..headings.len())
+                .min_by(|a, b| off(headings[*a] - turn, *heading).total_cmp(&off(headings[*b] - turn, *heading)));
+            drifts
+                .iter()
+                .map(|row| nearest.and_then(|at| row.get(at)).map_or([0.0; 6], |d| [d.surge, d.sway, 0.0, 0.0, 0.0, d.yaw]))
+                .collect()
+        })
+        .collect()
+}
+
+/// What G_MDRIFT shows of a frequency.
+struct DriftRow {
+    period: f64,
+    /// Heading of the largest force (rad, where the waves come from), and the force there both ways (N/m2).
+    heading: f64,
+    far: [f64; 2],
+    near: [f64; 2],
+    /// Largest difference of the forces over all headings (N/m2).
+    difference: f64,
+}
+
+/// Computes the mean drift of a body and puts it into its database; the report of it is shown.
+///
+/// # Errors
+/// As of [`MeshedBodies::new`]; motions without bound; an interrupt: the body keeps what it has.
+pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelRequest) -> Outcome<()> {
+    let span = request.span;
+    let wrong = |text: String| Diagnostic::error(format!("{name}: {text}"), span);
+    let (meshed, problem) = MeshedBodies::new(&job.model, &[name.to_owned()], request)?;
+    let refused = |error: DiffractionError| wrong(error.to_string());
+    let source = source(&job.model, &meshed);
+    if let DriftSource::None(why) = &source {
+        return Err(wrong(why.clone()));
+    }
+    let cylinder = problem.control_cylinder();
+    let bar = progress_bar(meshed.frequencies.len());
+    let (mut drifts, mut rows) = (Vec::new(), Vec::new());
+    for frequency in &meshed.frequencies {
+        if job.is_interrupted() {
+            bar.finish_and_clear();
+            return Err(wrong("interrupted: it keeps the drift it had, if any".into()));
+        }
+        let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
+        let motions = match &source {
+            DriftSource::Motions(linear) => motions(linear, &meshed, &waves.forces, &request.headings).map_err(wrong)?,
+            _ => vec![vec![C::default(); MOTIONS]; request.headings.len()],
+        };
+        let far: Vec<FarFieldDrift> =
+            motions.iter().enumerate().map(|(heading, motions)| at_heading(&waves, heading, motions)).collect();
+        let near = waves.control_surface_drift(&motions, &cylinder);
+        let near = near.ok_or_else(|| wrong("no control surface fits around it".into()))?;
+        rows.extend(drift_row(*frequency, &request.headings, &far, &near));
+        drifts.push(far);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let mut headings = request.headings.clone();
+    headings.iter_mut().for_each(|heading| *heading = heading.rem_euclid(TAU));
+    headings.sort_by(f64::total_cmp);
+    headings.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
+    let drift = DriftTable {
+        frequencies: meshed.frequencies.clone(),
+        values: by_heading(&request.headings, 0.0, &headings, &drifts),
+        headings,
+    };
+    let largest = rows.iter().map(|row: &DriftRow| row.far[0].hypot(row.far[1])).fold(0.0, f64::max);
+    let worst = rows.iter().map(|row| row.difference).fold(0.0, f64::max);
+    if worst > POOR_AGREEMENT * largest {
+        let text = format!(
+            "far field and control surface differ by {:.1} % of the largest drift: the panels are too large",
+            100.0 * worst / largest
+        );
+        job.warn(format!("{name}: {text}"), span);
+    }
+    let table = report(name, &meshed, &source, (&rows, largest));
+    let key = Model::key(name);
+    if let Some(attached) = job.model.bodies.get_mut(&key).and_then(|body| body.database.as_mut()) {
+        attached.data = Arc::new(Database { drift: Some(drift), ..data.clone() });
+    }
+    job.say_tables(&[table]);
+    Ok(())
+}
+
+/// The row of a frequency; none without headings.
+fn drift_row(
+    frequency: f64,
+    headings: &[f64],
+    far: &[FarFieldDrift],
+    near: &[ControlSurfaceDrift],
+) -> Option<DriftRow> {
+    let all = || headings.iter().zip(far.iter().zip(near));
+    let size = |drift: &FarFieldDrift| drift.surge.hypot(drift.sway);
+    let (heading, (most, beside)) = all().max_by(|a, b| size(a.1.0).total_cmp(&size(b.1.0)))?;
+    let difference =
+        all().map(|(_, (far, near))| (far.surge - near.surge).hypot(far.sway - near.sway)).fold(0.0, f64::max);
+    Some(DriftRow {
+        period: TAU / frequency,
+        heading: (heading + 0.5 * TAU).rem_euclid(TAU),
+        far: [most.surge, most.sway],
+        near: [beside.surge, beside.sway],
+        difference,
+    })
+}
+
+fn report(
+    name: &str,
+    meshed: &MeshedBodies,
+    source: &DriftSource,
+    (rows, largest): (&[DriftRow], f64),
+) -> Table {
+    let force = Dim::Derived { force: 1, length: -2, seconds: 0 };
+    let mut rows: Vec<&DriftRow> = rows.iter().collect();
+    rows.reverse();
+    let share = |row: &DriftRow| if largest > 0.0 { 100.0 * row.difference / largest } else { 0.0 };
+    let mut table = Table::new(format!("Mean Drift by Panels of {name}"))
+        .with_rows(&rows)
+        .column("", "Period", Dim::Time, Digits::Decimals(2), |row| row.period)
+        .column("", "Heading", Dim::Angle, Digits::Usual, |row| row.heading)
+        .column("Far Field", "Far X", force, Digits::Scientific(4), |row| row.far[0])
+        .column("Far Field", "Far Y", force, Digits::Scientific(4), |row| row.far[1])
+        .column("Control Surface", "Near X", force, Digits::Scientific(4), |row| row.near[0])
+        .column("Control Surface", "Near Y", force, Digits::Scientific(4), |row| row.near[1])
+        .column("", "Difference", Dim::None, Digits::Decimals(2), |row| share(row))
+        .build();
+    table = table.fact("Size of Panels", meshed.size, Dim::Length);
+    table = table.fact("Motions", if matches!(source, DriftSource::Fixed) { "held" } else { "free, as moored" }, Dim::None);
+    table.note("over the square of the wave amplitude, at the heading of the largest force, along the heading of the body; V_MDRIFT has every heading");
+    table.note("Difference: largest difference of both over all headings, per cent of the largest force; solves use the far field");
+    if let DriftSource::Motions(linear) = source {
+        // remarks are of motions without databases
+        table.add_notes(linear.notes.iter().filter(|note| note.severity == Severity::Warning).cloned());
+    }
+    table
+}
