@@ -356,7 +356,8 @@ fn solve_system(system: &WaveSystem, right: &Columns) -> Option<(Columns, usize)
 /// Sees that the panels of a body close it below the water, but for a bottom that it stands on, and face the water.
 fn check_closed(number: usize, mesh: &HullMesh, depth: Option<f64>) -> Result<(), DiffractionError> {
     let volumes = mesh.volumes();
-    let lowest = mesh.hull().iter().flat_map(|panel| panel.corners()).fold(0.0, |most: f64, corner| most.max(-corner.z));
+    let lowest =
+        mesh.hull().iter().flat_map(|panel| panel.corners()).fold(0.0, |most: f64, corner| most.max(-corner.z));
     let stands = depth.is_some_and(|depth| lowest >= depth * (1.0 - 1e-6));
     let seen = if stands { &volumes[..2] } else { &volumes[..] };
     let (low, high) =
@@ -384,7 +385,8 @@ fn check_apart(bodies: &[DiffractionBody]) -> Result<(), DiffractionError> {
     let limits = |mesh: &HullMesh| {
         let corners = || mesh.hull().iter().flat_map(|panel| panel.corners());
         [0, 1, 2].map(|axis| {
-            corners().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
+            corners()
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at[axis]), high.max(at[axis])])
         })
     };
     let all: Vec<_> = bodies.iter().map(|body| limits(&body.mesh)).collect();
@@ -402,7 +404,8 @@ fn check_apart(bodies: &[DiffractionBody]) -> Result<(), DiffractionError> {
             };
             for panel in body.mesh.hull() {
                 // a centroid on a face of the other sees half a sphere; a corner on its edges may see three quarters
-                let points = std::iter::once((&panel.centroid, PI)).chain(panel.corners().iter().map(|at| (at, 3.2 * PI)));
+                let points =
+                    std::iter::once((&panel.centroid, PI)).chain(panel.corners().iter().map(|at| (at, 3.2 * PI)));
                 for (at, most) in points {
                     if is_near(at) && angle(at) < -most {
                         let at = [at.x, at.y, at.z];

@@ -180,7 +180,8 @@ impl Model {
     fn interaction_caveats(&self, body: &Body, data: &Database) -> Vec<String> {
         let mut list = Vec::new();
         let found: Vec<_> = self.interactions().into_iter().filter(|pair| pair.on.1.name == body.name).collect();
-        let missing = data.interactions.iter().filter(|own| !found.iter().any(|pair| pair.interaction.index == own.index));
+        let missing =
+            data.interactions.iter().filter(|own| !found.iter().any(|pair| pair.interaction.index == own.index));
         let count = missing.count();
         if count > 0 {
             list.push(format!(

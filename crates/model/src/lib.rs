@@ -62,7 +62,9 @@ pub use class::{
 pub use compartment::{Compartment, FreeSurface, Hole, HoleKind, TankContents};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
-pub use database::{Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, Qtf};
+pub use database::{
+    Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, Qtf,
+};
 pub use defaults::{Coordinates, DefaultMaterial, Defaults, WaveDefaults};
 pub use draft_mark::DraftMark;
 pub use element::{

@@ -151,7 +151,11 @@ pub(super) struct BodyInteraction {
 
 impl BodyInteraction {
     /// Those of a model among bodies with these keys.
-    pub(super) fn gather(model: &Model, nodes: &[SystemBody], under_way: Option<Option<&Sea>>) -> Result<Vec<Self>, SolveError> {
+    pub(super) fn gather(
+        model: &Model,
+        nodes: &[SystemBody],
+        under_way: Option<Option<&Sea>>,
+    ) -> Result<Vec<Self>, SolveError> {
         let number = |key: &String| nodes.iter().position(|node| node.key == *key);
         let all = gather_interactions(model, under_way).map_err(SolveError::new)?;
         let made = all.into_iter().filter_map(|GatheredInteraction { bodies: [on, by], infinite, load }| {

@@ -294,7 +294,8 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
     let name = body.name.clone();
     // what it has made itself it makes again
-    let has_database = body.database.as_ref().is_some_and(|attached| !attached.data.source.starts_with(panel_forces::SOURCE));
+    let has_database =
+        body.database.as_ref().is_some_and(|attached| !attached.data.source.starts_with(panel_forces::SOURCE));
     let has_hull = windlass_hydro::wetted_hull::has_hull(&job.model, body);
     let mut names = vec![name.clone()];
     for value in args.option(&WITH).into_iter().flat_map(|given| &given.values) {
@@ -377,7 +378,8 @@ fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
             job.remark(format!("the mean drift of {name} is that of its database: G_MDRIFT computes none"), span);
             return Ok(Effect::Done);
         }
-        let text = format!("the database of {name} ({}) is not one that G_PRESSURE made of this body alone", data.source);
+        let text =
+            format!("the database of {name} ({}) is not one that G_PRESSURE made of this body alone", data.source);
         return Err(Diagnostic::error(text, args.position(NAME)).help("#DRIFT gives mean drift by records"));
     };
     for option in [&MD_TYPE, &DIMENSIONS] {

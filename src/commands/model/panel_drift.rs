@@ -11,7 +11,9 @@ use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_diffraction::{ControlSurfaceDrift, DiffractionError, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution};
+use windlass_diffraction::{
+    ControlSurfaceDrift, DiffractionError, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution,
+};
 use windlass_hydro::database::DriftTable;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_model::{Database, Model};
@@ -20,6 +22,9 @@ use windlass_solve::frequency::{LinearSystem, Motions};
 
 /// Far field and control surface that differ by more than this share of the largest drift are warned of.
 const POOR_AGREEMENT: f64 = 0.05;
+
+/// What of the largest force is rounding.
+const ROUNDING_SHARE: f64 = 1e-6;
 
 type C = Complex<f64>;
 
@@ -47,7 +52,9 @@ impl DriftSource {
 /// The motions of bodies that are meshed.
 pub fn source(model: &Model, meshed: &MeshedBodies) -> DriftSource {
     let [body] = meshed.bodies.as_slice() else {
-        return DriftSource::None("of several bodies the waves far away give the sum alone; #DRIFT gives it by records".into());
+        return DriftSource::None(
+            "of several bodies the waves far away give the sum alone; #DRIFT gives it by records".into(),
+        );
     };
     if model.bodies.get(&body.key).is_some_and(|body| body.ignored.len() >= MOTIONS) {
         return DriftSource::Fixed;
@@ -103,9 +110,7 @@ fn motions(
         }
     }
     let k = wave_number(frequency, meshed.water.depth, meshed.water.gravity).map_err(|error| error.to_string())?;
-    let phase = |toward: f64| {
-        C::from_polar(1.0, k * (meshed.place[0] * toward.cos() + meshed.place[1] * toward.sin()))
-    };
+    let phase = |toward: f64| C::from_polar(1.0, k * (meshed.place[0] * toward.cos() + meshed.place[1] * toward.sin()));
     let mut loads: Vec<Motions> = Vec::new();
     for (heading, own) in headings.iter().zip(&forces.excitation) {
         let toward = heading + meshed.heading;
@@ -123,11 +128,58 @@ fn motions(
         let back = phase(heading + meshed.heading).conj();
         let of_node = |row: &usize| {
             let row = *row;
-            (0..MOTIONS).map(move |a| (0..MOTIONS).map(|b| all[MOTIONS * row + b] * to_global[(b, a)]).sum::<C>() * back)
+            (0..MOTIONS)
+                .map(move |a| (0..MOTIONS).map(|b| all[MOTIONS * row + b] * to_global[(b, a)]).sum::<C>() * back)
         };
         nodes.iter().flat_map(of_node).collect()
     };
     Ok(headings.iter().zip(&made).map(in_group).collect())
+}
+
+/// Other damping of roll than that of radiated waves, over the critical one, below which roll is said to have none; and of both below which the
+/// roll at its natural period is too large to be let pass.
+const NO_ROLL_DAMPING: f64 = 2e-3;
+const LIGHT_ROLL_DAMPING: f64 = 0.05;
+
+/// The warning of a body alone whose roll at its natural period has the damping of radiated waves alone; none where that period is not among the
+/// frequencies.
+pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, made: &[FrequencyForces]) -> Option<String> {
+    const ROLL: usize = 3;
+    let [body] = meshed.bodies.as_slice() else { return None };
+    let node = linear.system.nodes.iter().position(|node| node.key == body.key)?;
+    if !linear.system.nodes.get(node)?.moves(ROLL) {
+        return None;
+    }
+    let at = MOTIONS * node + ROLL;
+    // along the heading of the body its roll is about x
+    let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), -meshed.heading);
+    let about = |all: &DMatrix<f64>| -> f64 {
+        let block = all.fixed_view::<3, 3>(at, at);
+        (turned.matrix() * block * turned.matrix().transpose())[(0, 0)]
+    };
+    let stiffness = about(&linear.stiffness);
+    let (mass, damping) = linear.inertia_and_damping(meshed.frequencies.first().copied()?);
+    let (own, given) = (about(&mass), about(&damping));
+    // mass and added mass as far as they go with the stiffness
+    let excess =
+        |forces: &FrequencyForces| forces.frequency.powi(2) * (own + forces.added_mass[(ROLL, ROLL)]) - stiffness;
+    let pair = made.windows(2).find(|pair| excess(&pair[0]) <= 0.0 && excess(&pair[1]) > 0.0)?;
+    let [low, high] = pair else { return None };
+    let share = -excess(low) / (excess(high) - excess(low));
+    let between = |a: f64, b: f64| a + (b - a) * share;
+    let frequency = between(low.frequency, high.frequency);
+    let radiated = between(low.damping[(ROLL, ROLL)], high.damping[(ROLL, ROLL)]);
+    let critical = 2.0 * stiffness / frequency;
+    let shares = [given / critical, (given + radiated) / critical];
+    (shares[0] < NO_ROLL_DAMPING && shares[1] < LIGHT_ROLL_DAMPING).then(|| {
+        format!(
+            "{}: roll has the damping of radiated waves alone, {:.2} % of critical at its natural period of {:.2} s, where it is too large: \
+             #DAMP or #TANAKA gives what eddies take",
+            body.name,
+            100.0 * shares[1],
+            TAU / frequency
+        )
+    })
 }
 
 /// Drift of a heading by the waves far away, with given motions.
@@ -168,7 +220,9 @@ pub fn by_heading(headings: &[f64], turn: f64, wanted: &[f64], drifts: &[Vec<Far
                 .min_by(|a, b| off(headings[*a] - turn, *heading).total_cmp(&off(headings[*b] - turn, *heading)));
             drifts
                 .iter()
-                .map(|row| nearest.and_then(|at| row.get(at)).map_or([0.0; 6], |d| [d.surge, d.sway, 0.0, 0.0, 0.0, d.yaw]))
+                .map(|row| {
+                    nearest.and_then(|at| row.get(at)).map_or([0.0; 6], |d| [d.surge, d.sway, 0.0, 0.0, 0.0, d.yaw])
+                })
                 .collect()
         })
         .collect()
@@ -208,7 +262,9 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
         }
         let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
         let motions = match &source {
-            DriftSource::Motions(linear) => motions(linear, &meshed, &waves.forces, &request.headings).map_err(wrong)?,
+            DriftSource::Motions(linear) => {
+                motions(linear, &meshed, &waves.forces, &request.headings).map_err(wrong)?
+            }
             _ => vec![vec![C::default(); MOTIONS]; request.headings.len()],
         };
         let far: Vec<FarFieldDrift> =
@@ -256,24 +312,22 @@ fn drift_row(
 ) -> Option<DriftRow> {
     let all = || headings.iter().zip(far.iter().zip(near));
     let size = |drift: &FarFieldDrift| drift.surge.hypot(drift.sway);
-    let (heading, (most, beside)) = all().max_by(|a, b| size(a.1.0).total_cmp(&size(b.1.0)))?;
+    let largest = all().map(|at| size(at.1.0)).fold(0.0, f64::max);
+    // the first of equals, as of both sides of a hull
+    let (heading, (most, beside)) = all().find(|at| size(at.1.0) >= largest * (1.0 - ROUNDING_SHARE))?;
+    let clean = |force: [f64; 2]| force.map(|v| if v.abs() < ROUNDING_SHARE * largest { 0.0 } else { v });
     let difference =
         all().map(|(_, (far, near))| (far.surge - near.surge).hypot(far.sway - near.sway)).fold(0.0, f64::max);
     Some(DriftRow {
         period: TAU / frequency,
         heading: (heading + 0.5 * TAU).rem_euclid(TAU),
-        far: [most.surge, most.sway],
-        near: [beside.surge, beside.sway],
+        far: clean([most.surge, most.sway]),
+        near: clean([beside.surge, beside.sway]),
         difference,
     })
 }
 
-fn report(
-    name: &str,
-    meshed: &MeshedBodies,
-    source: &DriftSource,
-    (rows, largest): (&[DriftRow], f64),
-) -> Table {
+fn report(name: &str, meshed: &MeshedBodies, source: &DriftSource, (rows, largest): (&[DriftRow], f64)) -> Table {
     let force = Dim::Derived { force: 1, length: -2, seconds: 0 };
     let mut rows: Vec<&DriftRow> = rows.iter().collect();
     rows.reverse();
@@ -289,7 +343,8 @@ fn report(
         .column("", "Difference", Dim::None, Digits::Decimals(2), |row| share(row))
         .build();
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
-    table = table.fact("Motions", if matches!(source, DriftSource::Fixed) { "held" } else { "free, as moored" }, Dim::None);
+    table =
+        table.fact("Motions", if matches!(source, DriftSource::Fixed) { "held" } else { "free, as moored" }, Dim::None);
     table.note("over the square of the wave amplitude, at the heading of the largest force, along the heading of the body; V_MDRIFT has every heading");
     table.note("Difference: largest difference of both over all headings, per cent of the largest force; solves use the far field");
     if let DriftSource::Motions(linear) = source {

@@ -174,7 +174,8 @@ impl MeshedBodies {
         let frequencies = choose_frequencies(names, request, size, water)?;
         let problem = DiffractionProblem::new(&parts, water);
         let problem = problem.map_err(|error| {
-            let named: Vec<String> = bodies.iter().enumerate().map(|(i, b)| format!("{} is {}", i + 1, b.name)).collect();
+            let named: Vec<String> =
+                bodies.iter().enumerate().map(|(i, b)| format!("{} is {}", i + 1, b.name)).collect();
             let said = wrong(format!("{}: {error}", names.join(", ")));
             if alone { said } else { said.help(format!("of the bodies {}", named.join(", "))) }
         })?;
@@ -190,8 +191,7 @@ impl MeshedBodies {
         model: &Model,
     ) -> Result<Vec<Database>, String> {
         let around = model.surroundings();
-        let source =
-            if self.bodies.len() == 1 { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
+        let source = if self.bodies.len() == 1 { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
         let turns: Vec<Matrix6<f64>> = self.bodies.iter().map(MeshedBody::axes).collect();
         let block = |matrix: &DMatrix<f64>, i: usize, j: usize| -> Matrix6<f64> {
             let own = Matrix6::from_fn(|row, column| matrix[(MOTIONS * i + row, MOTIONS * j + column)]);
@@ -350,6 +350,11 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         settle_pressure(&mut job.model, &body.name);
     }
     warn_of_quality(job, &meshed, &made, span);
+    if let DriftSource::Motions(linear) = &drift
+        && let Some(text) = panel_drift::roll_warning(linear, &meshed, &made)
+    {
+        job.warn(text, span);
+    }
     if let DriftSource::None(why) = &drift {
         job.warn(format!("{all}: mean drift is left out: {why}"), span);
     }
@@ -397,7 +402,8 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, made: &[FrequencyForces
         job.warn(text, span);
     }
     for body in meshed.bodies.iter().filter(|body| !body.has_lid) {
-        let text = "its waterline does not close, so that it has no lid: results near irregular frequencies are wrong there";
+        let text =
+            "its waterline does not close, so that it has no lid: results near irregular frequencies are wrong there";
         job.warn(format!("{}: {text}", body.name), span);
     }
 }

@@ -99,8 +99,12 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         columns: &[
             column("Period", &[Dim::Time], "period of the waves"),
             column("Heading", ANGLE, "where the waves of the largest drift come from, from the heading of the body"),
-            column("Far @", &[derived(1, -2, 0)], "force over the square of the wave amplitude, by the waves far away"),
-            column("Near @", &[derived(1, -2, 0)], "the same by the control surface"),
+            column(
+                "Far Field: Far @",
+                &[derived(1, -2, 0)],
+                "force over the square of the wave amplitude, by the waves far away",
+            ),
+            column("Control Surface: Near @", &[derived(1, -2, 0)], "the same by the control surface"),
             column("Difference", NONE, "largest difference over all headings, per cent of the largest force"),
         ],
     },

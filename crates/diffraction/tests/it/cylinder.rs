@@ -167,7 +167,8 @@ fn piston_mode_of_annulus_stays_with_lid() {
     assert!((area / exact - 1.0).abs() < 0.01, "{area} {exact}");
     let water = Water { density: 1000.0, gravity: 9.81, depth: None };
     let peak = |mesh: &HullMesh| {
-        let problem = DiffractionProblem::new(&[DiffractionBody { mesh: mesh.clone(), origin: Vector3::zeros() }], water);
+        let problem =
+            DiffractionProblem::new(&[DiffractionBody { mesh: mesh.clone(), origin: Vector3::zeros() }], water);
         let problem = problem.unwrap();
         let fixed = vec![vec![Complex::default(); 6]];
         let rise = |k: f64| {

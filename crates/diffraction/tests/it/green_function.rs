@@ -77,8 +77,7 @@ fn far_away_the_propagating_wave_follows_on_the_table() {
     for nu in [0.02, 0.5, 2.0, 8.0, 40.0] {
         let table = FiniteDepthTable::new(nu, 1.0, 30.0, 1.0);
         for heights in [[0.0, -0.3], [-0.9, -0.2], [-0.5, -0.5]] {
-            let [near, far] =
-                [12.0 - 1e-9, 12.0 + 1e-9].map(|r| table.evaluate(WavePartTable::shared(), r, heights));
+            let [near, far] = [12.0 - 1e-9, 12.0 + 1e-9].map(|r| table.evaluate(WavePartTable::shared(), r, heights));
             let pairs = [
                 (near.value, far.value),
                 (near.by_distance, far.by_distance),

@@ -109,8 +109,7 @@ impl LinearMotion {
 
     /// The same of a force on one body that changes with the motion of another.
     pub(super) fn load_between(force: &Six, damping: &Matrix6<f64>, state: &[f64], other: &[f64]) -> DynamicLoad {
-        let (axes, others, rates) =
-            (LinearMotion::axes(state), LinearMotion::axes(other), LinearMotion::rates(other));
+        let (axes, others, rates) = (LinearMotion::axes(state), LinearMotion::axes(other), LinearMotion::rates(other));
         let mut global = Matrix6::zeros();
         for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
             let turned = if column == 0 { others.transpose() } else { rates };

@@ -103,8 +103,7 @@ impl Set<'_> {
         let chosen = match (body, bodies.as_slice()) {
             (None, [one]) => one,
             (None, list) => {
-                let text =
-                    format!("it has {} bodies ({}): -INDEX says which one to take", list.len(), list.join(", "));
+                let text = format!("it has {} bodies ({}): -INDEX says which one to take", list.len(), list.join(", "));
                 return Err(self.error(text));
             }
             (Some(n), list) => match n.checked_sub(1).and_then(|i| list.get(i)) {

@@ -160,12 +160,7 @@ impl RetardationMemory {
     }
 
     /// The pairs of directions whose kernel is above a limit somewhere; none: nothing.
-    fn of_pairs(
-        integrals: Integrals,
-        length: f64,
-        step: f64,
-        limit: &dyn Fn(usize, usize) -> Option<f64>,
-    ) -> Self {
+    fn of_pairs(integrals: Integrals, length: f64, step: f64, limit: &dyn Fn(usize, usize) -> Option<f64>) -> Self {
         let lags = (length / step).ceil().clamp(1.0, MAX_LAGS as f64) as usize + 1;
         let seconds: Vec<Matrix6<f64>> =
             (0..=lags + 1).map(|n| integrals.integrals_at_lag(n as f64 * step).1).collect();

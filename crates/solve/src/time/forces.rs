@@ -129,7 +129,8 @@ impl LoadMemory {
             self.ahead.push(more);
         }
         for (between, range) in system.interactions.iter().zip(&self.interactions) {
-            let (Some(load), Some(at)) = (&between.load, interaction_step(between, ahead, TimeStep { time, dt })) else {
+            let (Some(load), Some(at)) = (&between.load, interaction_step(between, ahead, TimeStep { time, dt }))
+            else {
                 continue;
             };
             let state = &mut self.loads[range.clone()];
