@@ -25,6 +25,8 @@ const POOR_AGREEMENT: f64 = 0.05;
 
 /// What of the largest force is rounding.
 const ROUNDING_SHARE: f64 = 1e-6;
+/// What of the largest drift of a database is nothing: planes of symmetry.
+const NOISE_SHARE: f64 = 1e-12;
 
 type C = Complex<f64>;
 
@@ -213,17 +215,18 @@ pub fn by_heading(headings: &[f64], turn: f64, wanted: &[f64], drifts: &[Vec<Far
         let turn = (a - b).rem_euclid(TAU);
         turn.min(TAU - turn)
     };
+    let largest = |of: &dyn Fn(&FarFieldDrift) -> f64| drifts.iter().flatten().map(of).fold(0.0, f64::max);
+    let (force, moment) = (largest(&|d| d.surge.hypot(d.sway)), largest(&|d| d.yaw.abs()));
+    // the moment of a symmetric hull is rounding of its forces over the lengths of waves
+    let moment = moment.max(force);
+    let clean = |value: f64, largest: f64| if value.abs() < NOISE_SHARE * largest { 0.0 } else { value };
+    let six = |d: &FarFieldDrift| [clean(d.surge, force), clean(d.sway, force), 0.0, 0.0, 0.0, clean(d.yaw, moment)];
     wanted
         .iter()
         .map(|heading| {
             let nearest = (0..headings.len())
                 .min_by(|a, b| off(headings[*a] - turn, *heading).total_cmp(&off(headings[*b] - turn, *heading)));
-            drifts
-                .iter()
-                .map(|row| {
-                    nearest.and_then(|at| row.get(at)).map_or([0.0; 6], |d| [d.surge, d.sway, 0.0, 0.0, 0.0, d.yaw])
-                })
-                .collect()
+            drifts.iter().map(|row| nearest.and_then(|at| row.get(at)).map_or([0.0; 6], six)).collect()
         })
         .collect()
 }

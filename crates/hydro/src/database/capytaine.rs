@@ -18,6 +18,9 @@ const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
 /// Which directions of a data set are those of a body: place in the data set, 0 to 5.
 type BodyDirections = Vec<(usize, usize)>;
 
+/// Body and direction of each place on a dimension, and the bodies, in their order.
+type NamedDirections = (Vec<(String, String)>, Vec<String>);
+
 /// A variable: its dimensions and its values, the last dimension the fastest.
 struct Variable {
     names: Vec<String>,
@@ -125,7 +128,7 @@ impl Set<'_> {
     }
 
     /// Body and direction of each place on a dimension, and the bodies, in their order.
-    fn named_directions(&self, dimension: &str) -> Result<(Vec<(String, String)>, Vec<String>), DatabaseError> {
+    fn named_directions(&self, dimension: &str) -> Result<NamedDirections, DatabaseError> {
         let words = self.words(dimension)?;
         let split = |w: &String| match w.rsplit_once("__") {
             Some((body, dof)) => (body.to_string(), dof.to_ascii_uppercase()),

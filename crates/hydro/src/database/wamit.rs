@@ -104,12 +104,15 @@ pub(super) fn frequency(file: &SourceFile, row: &NumberRow, column: usize) -> Re
     }
 }
 
+/// Rows of the motions of another body, by frequency and at the infinite one.
+type OtherRows = (Vec<PairRow>, Vec<(usize, f64)>);
+
 /// Added mass and damping of a `.1`.
 fn radiation(data: &mut Database, file: &SourceFile, scale: &WamitScale) -> Result<(), DatabaseError> {
     let mut rows: Vec<(f64, usize, [f64; 2])> = Vec::new();
     let (mut infinite, mut zero) = (Vec::new(), Vec::new());
     // of the motions of other bodies, by their number from 0
-    let mut others: BTreeMap<usize, (Vec<PairRow>, Vec<(usize, f64)>)> = BTreeMap::new();
+    let mut others: BTreeMap<usize, OtherRows> = BTreeMap::new();
     data.index = scale.body.unwrap_or(1) - 1;
     for row in file.rows(4)? {
         let (own, by) = (mode_of(file, &row, 1, scale)?, mode_of(file, &row, 2, scale)?);
