@@ -1,7 +1,9 @@
 //! `windlass study`: runs a table of cases, a process each, and writes one table of what came of them.
 
 mod case_process;
+mod ensembles;
 mod tables;
+mod variables;
 
 pub use case_process::{CASE_COMMAND, CaseProgram, run_one};
 pub use tables::StudyTables;
@@ -18,7 +20,7 @@ use windlass_base::printable::printable;
 use windlass_study::record::CaseStatus;
 use windlass_study::runner::{Keep, Progress, RunCase, StudyPlan, run_study};
 use windlass_study::store::{Files, Study, StudyError, SystemFiles};
-use windlass_study::table::{Case, CaseTable};
+use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
 /// Longest table (bytes).
 const LARGEST_TABLE: u64 = 1 << 30;
@@ -66,6 +68,9 @@ pub struct StudyArgs {
     /// Seed of the study
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u64,
+    /// Most cases of a table
+    #[arg(long, value_name = "N", default_value_t = MOST_CASES)]
+    pub max_cases: usize,
     /// Run failed cases of an earlier start again
     #[arg(long)]
     pub retry_failed: bool,
@@ -129,7 +134,8 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     let text =
         read.and_then(|bytes| String::from_utf8(bytes).map_err(|_| format!("{}: it is not UTF-8", table.display())));
     let cases = text.and_then(|text| {
-        CaseTable::parse(&table.display().to_string(), &text, args.seed).map_err(|error| error.to_string())
+        CaseTable::parse(&table.display().to_string(), &text, args.seed, args.max_cases)
+            .map_err(|error| error.to_string())
     });
     let cases = match cases {
         Ok(cases) => cases,
@@ -140,6 +146,10 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     };
     if !model.is_file() {
         complain(&format!("there is no script {}", model.display()));
+        return StudyExit::Usage;
+    }
+    if let Some(unused) = variables::complaint(&cases, &table.display().to_string(), model) {
+        complain(&unused);
         return StudyExit::Usage;
     }
     let cores = std::thread::available_parallelism().map_or(1, usize::from);

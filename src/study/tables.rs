@@ -12,47 +12,62 @@ use windlass_study::store::{Files, Study};
 /// A row a case.
 pub const RESULTS_CSV: &str = "results.csv";
 
-/// Both tables, as columns.
+/// The tables of a study, as columns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyTables {
     /// A row a case.
     pub results: Vec<StoredColumn>,
     /// A row a line of each case; no column where no case has one.
     pub lines: Vec<StoredColumn>,
+    /// A row a result of each ensemble: cases that differ in their seeds alone. No column where there is none of two cases.
+    pub ensembles: Vec<StoredColumn>,
 }
 
 impl StudyTables {
     /// The tables of a study.
     pub fn new(study: &Study) -> Self {
-        StudyTables { results: result_columns(study), lines: line_columns(study) }
+        StudyTables {
+            results: result_columns(study),
+            lines: line_columns(study),
+            ensembles: super::ensembles::columns(study),
+        }
     }
 }
 
-/// Writes results.csv, results.parquet, lines.csv and lines.parquet; those of lines where there are some.
+/// Writes results.csv, lines.csv and ensembles.csv, and the same as Parquet. Lines and ensembles where there are some; what an earlier
+/// start wrote of them is removed where there are none.
 ///
 /// # Errors
 /// What the system refuses.
 pub fn write(study: &Study, folder: &Path, files: &dyn Files) -> io::Result<()> {
-    let StudyTables { results, lines } = StudyTables::new(study);
-    files.write(&folder.join(RESULTS_CSV), &csv_bytes(&results)?)?;
-    files.write(&folder.join("results.parquet"), &parquet_bytes("Results of a study", results)?)?;
-    if !lines.is_empty() {
-        files.write(&folder.join("lines.csv"), &csv_bytes(&lines)?)?;
-        files.write(&folder.join("lines.parquet"), &parquet_bytes("Lines of a study", lines)?)?;
+    let StudyTables { results, lines, ensembles } = StudyTables::new(study);
+    for (name, title, columns) in [
+        ("results", "Results of a study", results),
+        ("lines", "Lines of a study", lines),
+        ("ensembles", "Extremes over seeds of a study", ensembles),
+    ] {
+        let (csv, parquet) = (folder.join(format!("{name}.csv")), folder.join(format!("{name}.parquet")));
+        if columns.is_empty() {
+            files.remove(&csv)?;
+            files.remove(&parquet)?;
+        } else {
+            files.write(&csv, &csv_bytes(&columns)?)?;
+            files.write(&parquet, &parquet_bytes(title, columns)?)?;
+        }
     }
     Ok(())
 }
 
-fn text_column(name: &str, values: Vec<Option<String>>) -> StoredColumn {
+pub(super) fn text_column(name: &str, values: Vec<Option<String>>) -> StoredColumn {
     StoredColumn { head: name.into(), long_name: name.into(), unit: String::new(), values: ColumnValues::Texts(values) }
 }
 
-fn number_column(name: &str, unit: &str, values: Vec<Option<f64>>) -> StoredColumn {
+pub(super) fn number_column(name: &str, unit: &str, values: Vec<Option<f64>>) -> StoredColumn {
     StoredColumn { head: name.into(), long_name: name.into(), unit: unit.into(), values: ColumnValues::Numbers(values) }
 }
 
 /// A column of a table of cases: numbers where all of it are.
-fn input_column(name: &str, values: Vec<Option<String>>) -> StoredColumn {
+pub(super) fn input_column(name: &str, values: Vec<Option<String>>) -> StoredColumn {
     let numbers: Option<Vec<Option<f64>>> = values
         .iter()
         .map(|value| match value {

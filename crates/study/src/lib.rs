@@ -17,6 +17,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod ensemble;
 pub mod kept;
 pub mod record;
 pub mod runner;

@@ -67,6 +67,11 @@ pub trait Files: Sync {
     /// # Errors
     /// What the system refuses.
     fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()>;
+    /// Removes a file, where there is one.
+    ///
+    /// # Errors
+    /// What the system refuses.
+    fn remove(&self, path: &Path) -> io::Result<()>;
     /// Puts a folder in the place of another, which is removed.
     ///
     /// # Errors
@@ -104,6 +109,13 @@ impl Files for SystemFiles {
         fresh.write_all(bytes)?;
         fresh.as_file().sync_data()?;
         fresh.persist(path).map(drop).map_err(|error| error.error)
+    }
+
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        match fs::remove_file(path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
     }
 
     fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {

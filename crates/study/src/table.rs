@@ -4,10 +4,10 @@ use indexmap::IndexMap;
 use serde::Deserialize;
 use std::collections::HashMap;
 
-/// Most cases of a table.
-pub const MAX_CASES: usize = 10_000_000;
+/// Most cases of a table, unless more are asked for: beyond it a grid is more likely a slip than a wish.
+pub const MOST_CASES: usize = 1_000_000;
 /// Longest name of a case and of a column.
-const MAX_NAME: usize = 100;
+const MAX_NAME: usize = 80;
 /// The column of names.
 pub const CASE: &str = "case";
 /// The column of whole numbers that tell cases of one sea apart.
@@ -54,6 +54,8 @@ pub struct CaseTable {
     pub columns: Vec<String>,
     /// The cases, in the order of the table.
     pub cases: Vec<Case>,
+    /// Columns of a grid that the forms of `case` and `seed_of` name.
+    pub naming: Vec<String>,
 }
 
 impl CaseTable {
@@ -61,10 +63,11 @@ impl CaseTable {
     ///
     /// # Errors
     /// A head that cannot name variables, a name of a case that is missing or comes twice, cells that are empty or hold what a record
-    /// would take for something else, lists of unequal length, more than [`MAX_CASES`] cases.
-    pub fn parse(file: &str, text: &str, study_seed: u64) -> Result<Self, TableError> {
+    /// would take for something else, numbers that are not finite, lists of unequal length, more than `most` cases: of a grid before
+    /// any of them is made.
+    pub fn parse(file: &str, text: &str, study_seed: u64, most: usize) -> Result<Self, TableError> {
         let is_toml = file.len() > 5 && file.to_ascii_lowercase().ends_with(".toml");
-        let rows = if is_toml { grid_rows(file, text)? } else { csv_rows(file, text)? };
+        let rows = if is_toml { grid_rows(file, text, most)? } else { csv_rows(file, text, most)? };
         rows.into_table(file, study_seed)
     }
 }
@@ -73,9 +76,10 @@ impl CaseTable {
 struct Rows {
     heads: Vec<String>,
     rows: Vec<(Option<u64>, Vec<String>)>,
+    naming: Vec<String>,
 }
 
-fn csv_rows(file: &str, text: &str) -> Result<Rows, TableError> {
+fn csv_rows(file: &str, text: &str, most: usize) -> Result<Rows, TableError> {
     let wrong = |line, message: String| TableError { file: file.into(), line, column: None, message };
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(text.as_bytes());
@@ -90,11 +94,11 @@ fn csv_rows(file: &str, text: &str) -> Result<Rows, TableError> {
             return Err(wrong(line, message));
         }
         rows.push((line, record.iter().map(str::to_owned).collect()));
-        if rows.len() > MAX_CASES {
-            return Err(wrong(line, format!("more than {MAX_CASES} cases")));
+        if rows.len() > most {
+            return Err(wrong(line, format!("more than {most} cases: --max-cases allows more")));
         }
     }
-    Ok(Rows { heads, rows })
+    Ok(Rows { heads, rows, naming: Vec::new() })
 }
 
 /// A grid as it is written.
@@ -125,7 +129,7 @@ fn value_text(value: &toml::Value) -> Option<String> {
     }
 }
 
-fn grid_rows(file: &str, text: &str) -> Result<Rows, TableError> {
+fn grid_rows(file: &str, text: &str, most: usize) -> Result<Rows, TableError> {
     let wrong = |line, column: Option<&str>, message: String| TableError {
         file: file.into(),
         line,
@@ -163,8 +167,9 @@ fn grid_rows(file: &str, text: &str) -> Result<Rows, TableError> {
     }
     groups.retain(|group| !group.is_empty());
     let total = groups.iter().try_fold(1_usize, |n, g| n.checked_mul(g.values().next().map_or(1, Vec::len)));
-    let total = total.filter(|n| *n <= MAX_CASES);
-    let total = total.ok_or_else(|| wrong(None, None, format!("the lists multiply to more than {MAX_CASES} cases")))?;
+    let total = total.filter(|n| *n <= most).ok_or_else(|| {
+        wrong(None, None, format!("the lists multiply to more than {most} cases: --max-cases allows more"))
+    })?;
     let columns: Vec<String> = groups.iter().flat_map(IndexMap::keys).cloned().collect();
     let mut excluded = Vec::new();
     for rule in &grid.exclude {
@@ -212,7 +217,10 @@ fn grid_rows(file: &str, text: &str) -> Result<Rows, TableError> {
         }
         rows.push((None, row));
     }
-    Ok(Rows { heads, rows })
+    let forms = || std::iter::once(&grid.case).chain(&grid.seed_of);
+    let is_in_a_form = |column: &&String| forms().any(|form| form.contains(&format!("{{{column}}}")));
+    let naming = columns.iter().filter(is_in_a_form).cloned().collect();
+    Ok(Rows { heads, rows, naming })
 }
 
 /// A form with the values of columns in braces.
@@ -270,6 +278,13 @@ impl Rows {
                 if cell.is_empty() {
                     return Err(wrong(line, head, "the cell is empty".into()));
                 }
+                // the sea of a name may be called so: only a variable is taken for a number
+                if !head.eq_ignore_ascii_case(CASE)
+                    && !head.eq_ignore_ascii_case(SEED_OF)
+                    && cell.parse::<f64>().is_ok_and(|number| !number.is_finite())
+                {
+                    return Err(wrong(line, head, format!("`{cell}` is not a finite number")));
+                }
                 if let Some(c) =
                     cell.chars().find(|c| c.is_control() || matches!(c, '%' | '\'' | '"' | '$' | '&' | '\\'))
                 {
@@ -310,6 +325,6 @@ impl Rows {
             cases.push(Case { name, values, seed });
         }
         let columns = self.heads.iter().enumerate().filter(|(at, _)| *at != name_at).map(|(_, head)| head.clone());
-        Ok(CaseTable { columns: columns.collect(), cases })
+        Ok(CaseTable { columns: columns.collect(), cases, naming: self.naming })
     }
 }

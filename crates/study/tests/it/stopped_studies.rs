@@ -10,7 +10,7 @@ use windlass_study::kept::KeptResult;
 use windlass_study::record::{CaseRecord, CaseStatus, FileRead, decode};
 use windlass_study::runner::{Keep, RunCase, StudyPlan, run_study};
 use windlass_study::store::{Files, Study, SystemFiles};
-use windlass_study::table::{Case, CaseTable};
+use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
 /// Files that fail for good from an operation on; the one it falls in writes half of what it was given.
 struct Stopping {
@@ -58,6 +58,11 @@ impl Files for Stopping {
         SystemFiles.move_folder(from, to)
     }
 
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        self.ask()?;
+        SystemFiles.remove(path)
+    }
+
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
         self.ask()?;
         SystemFiles.remove_folder(path)
@@ -100,7 +105,7 @@ fn plan(folder: &Path) -> StudyPlan {
         folder: folder.join("S"),
         model: "model".into(),
         table_name: "cases.csv".into(),
-        table: CaseTable::parse("cases.csv", table, 1).unwrap(),
+        table: CaseTable::parse("cases.csv", table, 1, MOST_CASES).unwrap(),
         seed: 1,
         version: "1".into(),
         jobs: 1,
@@ -174,7 +179,7 @@ fn what_has_changed_is_run_again_and_said_why() {
     let go = |plan: &StudyPlan| run_study(plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ());
     go(&first).unwrap();
     let table = "case,X\nG,6\nF,5\nA,7\n";
-    let second = StudyPlan { table: CaseTable::parse("cases.csv", table, 1).unwrap(), ..first.clone() };
+    let second = StudyPlan { table: CaseTable::parse("cases.csv", table, 1, MOST_CASES).unwrap(), ..first.clone() };
     let end = go(&second).unwrap();
     assert_eq!((end.kept, end.progress.finished), (1, 2));
     assert_eq!(end.again, [("A".to_owned(), "its row has changed".to_owned())]);

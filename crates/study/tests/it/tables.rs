@@ -1,7 +1,7 @@
 //! Tables of cases: what they come to by hand, and what is wrong with them.
 
 use windlass_study::seeds::seed_of_case;
-use windlass_study::table::CaseTable;
+use windlass_study::table::{CaseTable, MOST_CASES};
 
 fn cells(table: &CaseTable) -> Vec<String> {
     table.cases.iter().map(|case| format!("{}: {}", case.name, case.values.join(" "))).collect()
@@ -18,7 +18,7 @@ fn seeds_are_those_of_an_independent_program() {
 fn lists_are_multiplied_zipped_and_excluded() {
     let text = "case = \"{SEA}_{HEADING}_{member}\"\nseed_of = \"{SEA}\"\n[grid]\nHEADING = [0, 22.5]\nmember = [1, 2]\n\
                 [[zip]]\nSEA = [\"low\", \"high\"]\nHS = [4, 9.5]\n[[exclude]]\nHEADING = 22.5\nSEA = \"high\"\n";
-    let table = CaseTable::parse("cases.toml", text, 1).unwrap();
+    let table = CaseTable::parse("cases.toml", text, 1, MOST_CASES).unwrap();
     assert_eq!(table.columns, ["HEADING", "member", "SEA", "HS", "seed_of"]);
     // two headings, two members, two seas: eight, less the two of the high sea from 22.5 degrees
     assert_eq!(
@@ -39,18 +39,18 @@ fn lists_are_multiplied_zipped_and_excluded() {
 
 #[test]
 fn rows_of_csv_keep_their_order_and_seeds_go_by_name() {
-    let first = CaseTable::parse("cases.csv", "case,HS\r\nB,2\r\nA,\"3\"\r\n", 5).unwrap();
-    let second = CaseTable::parse("cases.csv", "HS,case\n3,A\n9,C\n2,B\n", 5).unwrap();
+    let first = CaseTable::parse("cases.csv", "case,HS\r\nB,2\r\nA,\"3\"\r\n", 5, MOST_CASES).unwrap();
+    let second = CaseTable::parse("cases.csv", "HS,case\n3,A\n9,C\n2,B\n", 5, MOST_CASES).unwrap();
     assert_eq!(cells(&first), ["B: 2", "A: 3"]);
     let seed = |table: &CaseTable, name: &str| table.cases.iter().find(|case| case.name == name).unwrap().seed;
     assert_eq!(["A", "B"].map(|n| seed(&first, n)), ["A", "B"].map(|n| seed(&second, n)));
-    let given = CaseTable::parse("cases.csv", "case,seed\nA,17\n", 5).unwrap();
+    let given = CaseTable::parse("cases.csv", "case,seed\nA,17\n", 5, MOST_CASES).unwrap();
     assert_eq!(given.cases[0].seed, 17);
 }
 
 #[test]
 fn wrong_tables_say_where_and_what() {
-    let said = |name: &str, text: &str| CaseTable::parse(name, text, 1).unwrap_err().to_string();
+    let said = |name: &str, text: &str| CaseTable::parse(name, text, 1, MOST_CASES).unwrap_err().to_string();
     for (text, wanted) in [
         ("HS\n1\n", "cases.csv:1: there is no column case, which names the rows; there are HS"),
         ("case,HS\n", "cases.csv: it has no cases"),
@@ -61,10 +61,13 @@ fn wrong_tables_say_where_and_what() {
         ("case,HS,hs\nA,1,2\n", "cases.csv:1: column hs: it stands twice"),
         ("case,HS\nA,1\na,2\n", "cases.csv:3: column case: `a` stands twice, first in line 2"),
         ("case,HS\nA,\n", "cases.csv:2: column HS: the cell is empty"),
+        ("case,HS\nA,1\nB,NaN\n", "cases.csv:3: column HS: `NaN` is not a finite number"),
+        ("case,HS\nA,-inf\n", "cases.csv:2: column HS: `-inf` is not a finite number"),
+        ("case,HS\nA,1e999\n", "cases.csv:2: column HS: `1e999` is not a finite number"),
         ("case,HS\nA,1,2\n", "cases.csv:2: 3 cells under 2 heads"),
         (
             "case,HS\n../A,1\n",
-            "cases.csv:2: column case: `../A` cannot name a case: letters, digits and _ - + ., 100 at most, not a . first",
+            "cases.csv:2: column case: `../A` cannot name a case: letters, digits and _ - + ., 80 at most, not a . first",
         ),
         ("case,HS\nA,%X%\n", "cases.csv:2: column HS: `%X%` has `%`, which a record reads as something else"),
         ("case,member\nA,-1\n", "cases.csv:2: column member: `-1` is not a whole number from 0 on"),
@@ -89,5 +92,10 @@ fn wrong_tables_say_where_and_what() {
     }
     assert!(said("cases.toml", "case = \"A\"\nlists = 3\n").starts_with("cases.toml:2: unknown field `lists`"));
     let many = format!("case = \"{{A}}{{B}}\"\n[grid]\nA = {0:?}\nB = {0:?}\n", (0..4000).collect::<Vec<_>>());
-    assert_eq!(said("cases.toml", &many), "cases.toml: the lists multiply to more than 10000000 cases");
+    assert_eq!(
+        said("cases.toml", &many),
+        "cases.toml: the lists multiply to more than 1000000 cases: --max-cases allows more"
+    );
+    let rows = CaseTable::parse("cases.csv", "case\nA\nB\nC\n", 1, 2).unwrap_err().to_string();
+    assert_eq!(rows, "cases.csv:4: more than 2 cases: --max-cases allows more");
 }

@@ -1,0 +1,134 @@
+//! Ensembles: cases that differ in nothing but their seed, one maximum of a result each.
+
+use crate::record::{CaseRecord, CaseStatus};
+use crate::table::{MEMBER, SEED, SEED_OF};
+use std::collections::{HashMap, HashSet};
+
+/// Cases of one row but for their seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ensemble<'a> {
+    /// Its cases, in the order of the study. Of those with the same seed only the first is here.
+    pub cases: Vec<&'a CaseRecord>,
+    /// How many cases are left out because a case before them has the same seed.
+    pub repeated: usize,
+}
+
+/// A result over the cases of an ensemble.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnsembleResult {
+    /// Its name.
+    pub name: String,
+    /// Its unit, that of the first case which kept it.
+    pub unit: String,
+    /// Its values, a case each, in `unit`.
+    pub values: Vec<f64>,
+    /// How many cases have not failed and yet do not have it in this unit.
+    pub missing: usize,
+}
+
+/// Whether a column has no other meaning than the seed of its case.
+pub fn is_seed_column(name: &str) -> bool {
+    [MEMBER, SEED, SEED_OF].iter().any(|known| known.eq_ignore_ascii_case(name))
+}
+
+/// The ensembles of the cases of a study, in the order of their first cases. Cases are of one ensemble where all columns but `member`,
+/// `seed` and `seed_of` have the same values; a case that no other goes with is an ensemble of one.
+pub fn ensembles(records: &[CaseRecord]) -> Vec<Ensemble<'_>> {
+    let mut places: HashMap<Vec<(&str, &str)>, usize> = HashMap::new();
+    let mut made: Vec<(Ensemble<'_>, HashSet<u64>)> = Vec::new();
+    for record in records {
+        let inputs = record.values.iter().filter(|(name, _)| !is_seed_column(name));
+        let key = inputs.map(|(name, value)| (name.as_str(), value.as_str())).collect();
+        let place = *places.entry(key).or_insert(made.len());
+        if place == made.len() {
+            made.push((Ensemble { cases: Vec::new(), repeated: 0 }, HashSet::new()));
+        }
+        let Some((ensemble, seeds)) = made.get_mut(place) else { continue };
+        if seeds.insert(record.seed) {
+            ensemble.cases.push(record);
+        } else {
+            ensemble.repeated += 1;
+        }
+    }
+    made.into_iter().map(|(ensemble, _)| ensemble).collect()
+}
+
+impl Ensemble<'_> {
+    /// How many of its cases ended so.
+    pub fn count(&self, status: CaseStatus) -> usize {
+        self.cases.iter().filter(|case| case.status == status).count()
+    }
+
+    /// The results that its cases have kept, in the order of the scripts. Failed cases are left out: what they kept may be of half a run.
+    pub fn results(&self) -> Vec<EnsembleResult> {
+        let ended: Vec<_> = self.cases.iter().filter(|case| case.status != CaseStatus::Failed).collect();
+        let mut made: Vec<EnsembleResult> = Vec::new();
+        for result in ended.iter().flat_map(|case| &case.results) {
+            match made.iter_mut().find(|known| known.name.eq_ignore_ascii_case(&result.name)) {
+                // of another unit it is no value of this result
+                Some(known) if known.unit == result.unit => known.values.push(result.value),
+                Some(_) => {}
+                None => made.push(EnsembleResult {
+                    name: result.name.clone(),
+                    unit: result.unit.clone(),
+                    values: vec![result.value],
+                    missing: 0,
+                }),
+            }
+        }
+        for result in &mut made {
+            result.missing = ended.len().saturating_sub(result.values.len());
+        }
+        made
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kept::KeptResult;
+
+    fn case(
+        name: &str,
+        (hs, member, seed): (&str, &str, u64),
+        status: CaseStatus,
+        kept: &[(&str, f64, &str)],
+    ) -> CaseRecord {
+        let result = |(name, value, unit): &(&str, f64, &str)| KeptResult::new(*name, *value, *unit).ok();
+        CaseRecord {
+            case: name.into(),
+            values: vec![("HS".into(), hs.into()), ("member".into(), member.into())],
+            seed,
+            status,
+            reason: String::new(),
+            seconds: 1.0,
+            messages: Vec::new(),
+            results: kept.iter().filter_map(result).collect(),
+            lines: Vec::new(),
+            read: Vec::new(),
+            version: String::new(),
+            start: 1,
+        }
+    }
+
+    #[test]
+    fn cases_that_differ_in_their_seed_are_one_ensemble() {
+        use CaseStatus::{Done, Failed, Overloaded};
+        let records = [
+            case("a1", ("9", "1", 11), Done, &[("T", 5.0, "kN"), ("X", 1.0, "m")]),
+            case("b1", ("12", "1", 12), Done, &[("T", 9.0, "kN")]),
+            case("a2", ("9", "2", 13), Failed, &[("T", 900.0, "kN")]),
+            case("a3", ("9", "3", 14), Overloaded, &[("t", 6.0, "kN")]),
+            case("a4", ("9", "4", 11), Done, &[("T", 5.0, "kN")]),
+            case("a5", ("9", "5", 15), Done, &[("T", 7.0, "N")]),
+        ];
+        let found = ensembles(&records);
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].cases.len(), found[0].repeated, found[0].count(Failed)), (4, 1, 1));
+        let results = found[0].results();
+        assert_eq!((results[0].name.as_str(), results[0].unit.as_str()), ("T", "kN"));
+        assert_eq!((results[0].values.as_slice(), results[0].missing), (&[5.0, 6.0][..], 1));
+        assert_eq!((results[1].values.as_slice(), results[1].missing), (&[1.0][..], 2));
+        assert_eq!(found[1].cases[0].case, "b1");
+    }
+}

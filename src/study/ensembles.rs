@@ -1,0 +1,141 @@
+//! Extremes over seeds: a row for each result of each ensemble of a study.
+
+use super::tables::{input_column, number_column, text_column};
+use crate::report::stored::StoredColumn;
+use windlass_signal::ensemble::{GumbelFit, SeedExtremes, seeds_for_scatter};
+use windlass_study::ensemble::{Ensemble, EnsembleResult, ensembles, is_seed_column};
+use windlass_study::record::{CaseRecord, CaseStatus};
+use windlass_study::store::Study;
+
+/// Confidence level of the intervals.
+const LEVEL: f64 = 0.95;
+/// Half width of the interval of the most probable maximum that `seeds_for_5_percent` is about, as a share of it.
+const SCATTER: f64 = 0.05;
+/// Fractiles of the maximum of one seed: the mode, F = 1/e, and those that are asked for in practice.
+const FRACTILES: [(&str, f64); 4] = [("mpm", 0.367_879_441_171_442_3), ("p50", 0.5), ("p90", 0.9), ("p95", 0.95)];
+
+/// Numbers of a row that need no fit.
+const COUNTS: [&str; 5] = ["cases", "failed", "overloaded", "missing", "repeated"];
+/// Numbers of the sample.
+const SAMPLE: [&str; 4] = ["count", "mean", "standard_deviation", "largest"];
+
+/// A row of the table.
+struct Row<'a> {
+    ensemble: &'a Ensemble<'a>,
+    result: EnsembleResult,
+    numbers: Vec<Option<f64>>,
+    reason: Option<String>,
+}
+
+impl<'a> Row<'a> {
+    /// The first case of the ensemble.
+    fn first(&self) -> Option<&'a CaseRecord> {
+        self.ensemble.cases.first().copied()
+    }
+}
+
+/// Names of the numbers, in the order of [`Row::numbers`].
+fn heads() -> Vec<String> {
+    let mut heads: Vec<String> = COUNTS.iter().chain(&SAMPLE).map(|&name| name.to_owned()).collect();
+    for fit in ["moments", "likelihood"] {
+        heads.extend(["location", "scale"].map(|name| format!("{fit}_{name}")));
+        for (name, _) in FRACTILES {
+            heads.extend(["", "_low", "_high"].map(|end| format!("{fit}_{name}{end}")));
+        }
+    }
+    heads.push("seeds_for_5_percent".into());
+    heads
+}
+
+/// Location, scale and fractiles with their intervals.
+fn fitted(values: &[f64], fit: GumbelFit) -> Result<Vec<f64>, String> {
+    let extremes = SeedExtremes::fit(values, fit).map_err(|error| error.to_string())?;
+    let mut numbers = vec![extremes.gumbel.location, extremes.gumbel.scale];
+    for (_, probability) in FRACTILES {
+        let found = extremes.fractile(probability, LEVEL).map_err(|error| error.to_string())?;
+        numbers.extend([found.value, found.interval.0, found.interval.1]);
+    }
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return Err("the fit is beyond the range of numbers".into());
+    }
+    Ok(numbers)
+}
+
+/// Mean, standard deviation (n - 1; none of one value) and largest of a sample.
+fn sample(values: &[f64]) -> [Option<f64>; 3] {
+    let n = values.len() as f64;
+    let Some(largest) = values.iter().copied().reduce(f64::max) else { return [None; 3] };
+    let mean = largest + values.iter().map(|x| x - largest).sum::<f64>() / n;
+    let deviation =
+        (values.len() > 1).then(|| (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
+    [Some(mean), deviation, Some(largest)].map(|number| number.filter(|number| number.is_finite()))
+}
+
+fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
+    let [mean, deviation, largest] = sample(&result.values);
+    let whole = |count: usize| Some(count as f64);
+    let mut numbers = vec![
+        whole(ensemble.cases.len()),
+        whole(ensemble.count(CaseStatus::Failed)),
+        whole(ensemble.count(CaseStatus::Overloaded)),
+        whole(result.missing),
+        whole(ensemble.repeated),
+        whole(result.values.len()),
+        mean,
+        deviation,
+        largest,
+    ];
+    let mut reason = None;
+    for (name, fit) in [("moments", GumbelFit::Moments), ("likelihood", GumbelFit::Likelihood)] {
+        match fitted(&result.values, fit) {
+            Ok(found) => numbers.extend(found.into_iter().map(Some)),
+            Err(error) => {
+                numbers.extend(std::iter::repeat_n(None, 2 + 3 * FRACTILES.len()));
+                reason.get_or_insert_with(|| format!("no fit by {name}: {error}"));
+            }
+        }
+    }
+    let seeds = match (mean, deviation) {
+        (Some(mean), Some(deviation)) if reason.is_none() => seeds_for_scatter(deviation / mean, SCATTER, LEVEL)
+            .map_err(|error| reason = Some(format!("no seeds_for_5_percent: {error}")))
+            .ok(),
+        _ => None,
+    };
+    numbers.push(seeds.and_then(whole));
+    Row { ensemble, result, numbers, reason }
+}
+
+/// The columns of `ensembles.csv`; none where no case shares its inputs with another, or no result is kept.
+pub(super) fn columns(study: &Study) -> Vec<StoredColumn> {
+    let ensembles = ensembles(&study.records);
+    if ensembles.iter().all(|ensemble| ensemble.cases.len() + ensemble.repeated < 2) {
+        return Vec::new();
+    }
+    let rows: Vec<Row<'_>> =
+        ensembles.iter().flat_map(|ensemble| ensemble.results().into_iter().map(|r| row(ensemble, r))).collect();
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let mut columns =
+        vec![text_column("first_case", rows.iter().map(|row| row.first().map(|case| case.case.clone())).collect())];
+    let mut inputs: Vec<&str> = Vec::new();
+    for (name, _) in ensembles.iter().filter_map(|ensemble| ensemble.cases.first()).flat_map(|case| &case.values) {
+        if !is_seed_column(name) && !inputs.contains(&name.as_str()) {
+            inputs.push(name);
+        }
+    }
+    for input in inputs {
+        let of =
+            |row: &Row<'_>| row.first()?.values.iter().find(|(name, _)| name == input).map(|(_, value)| value.clone());
+        columns.push(input_column(input, rows.iter().map(of).collect()));
+    }
+    columns.push(text_column("result", rows.iter().map(|row| Some(row.result.name.clone())).collect()));
+    let unit = |row: &Row<'_>| Some(row.result.unit.clone()).filter(|unit| !unit.is_empty());
+    columns.push(text_column("unit", rows.iter().map(unit).collect()));
+    for (at, head) in heads().iter().enumerate() {
+        let values = rows.iter().map(|row| row.numbers.get(at).copied().flatten()).collect();
+        columns.push(number_column(head, "", values));
+    }
+    columns.push(text_column("reason", rows.iter().map(|row| row.reason.clone()).collect()));
+    columns
+}
