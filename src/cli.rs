@@ -10,6 +10,7 @@ use crate::report::files::JobFolder;
 use crate::report::live::{LivePage, LivePageFile};
 use crate::report::output::Output;
 use crate::session::{RecordReadError, Session, SessionEnd, read_all};
+use crate::study::report::{self, ReportArgs};
 use crate::study::{self, StudyArgs, StudyExit};
 use crate::verification::{VerifyArgs, VerifyEnd, verify};
 use clap::{CommandFactory, Parser};
@@ -146,9 +147,9 @@ pub enum Subcommand {
     Verify(VerifyArgs),
     /// Open the run that a folder of answers holds, without the script that made it
     Open(OpenArgs),
-    /// Makes a report of a job.
-    #[command(hide = true)]
-    Report(Words),
+    /// Write the report of a study: a page of HTML, and Markdown
+    #[command(after_help = report::HELP)]
+    Report(ReportArgs),
     /// Format scripts: blanks, indentation and columns, never a word
     #[command(after_help = format_scripts::HELP)]
     Fmt(FormatArgs),
@@ -200,6 +201,8 @@ enum UsageError {
     ManualFirst,
     #[error("study comes first, and takes a table and a script: windlass study cases.csv model.cif --out DIR")]
     StudyFirst,
+    #[error("report comes first, and takes the folder of a study: windlass report DIR")]
+    ReportFirst,
     #[error("open comes first, and takes a folder of answers: windlass open ROOT.ans")]
     OpenFirst,
     #[error("fmt comes first, and takes scripts: windlass fmt --check model.cif")]
@@ -265,14 +268,8 @@ pub fn run(cli: Cli) -> u8 {
         Some(Subcommand::Manual(manual)) => return write_manual(&manual.dir),
         Some(Subcommand::Verify(args)) => return run_verification(args),
         Some(Subcommand::Open(open)) => return open_answers(open),
-        Some(Subcommand::Study(args)) => {
-            return match study::run(args, &mut stdout().lock(), &complain) {
-                StudyExit::Done => 0,
-                StudyExit::Failed => 1,
-                StudyExit::Usage => USAGE,
-                StudyExit::Interrupted => INTERRUPTED,
-            };
-        }
+        Some(Subcommand::Study(args)) => return study_code(study::run(args, &mut stdout().lock(), &complain)),
+        Some(Subcommand::Report(args)) => return study_code(report::run(args, &mut stdout().lock(), &complain)),
         Some(Subcommand::Fmt(args)) => {
             return match format_scripts::run(args, &mut stdout().lock(), &complain) {
                 FormatEnd::Done => 0,
@@ -298,6 +295,16 @@ pub fn run(cli: Cli) -> u8 {
             complain(&error.to_string());
             USAGE
         }
+    }
+}
+
+/// The exit code of a study or its report.
+fn study_code(exit: StudyExit) -> u8 {
+    match exit {
+        StudyExit::Done => 0,
+        StudyExit::Failed => 1,
+        StudyExit::Usage => USAGE,
+        StudyExit::Interrupted => INTERRUPTED,
     }
 }
 
@@ -344,6 +351,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "study" => Err(UsageError::StudyFirst),
         "fmt" => Err(UsageError::FormatFirst),
         "lsp" => Err(UsageError::ServerFirst),
+        "report" => Err(UsageError::ReportFirst),
         _ => Err(UsageError::CommandToCome { name }),
     }
 }
@@ -439,7 +447,9 @@ fn open_answers(args: &OpenArgs) -> u8 {
     };
     let terminal = stdin().is_terminal();
     let colour = stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
-    let job = JobFolder::new(folder.with_extension(""), Some(folder.clone()), args.allow_files);
+    // the files that a case of a study reads are named from its script
+    let root = report::script_of_case(&folder).unwrap_or_else(|| folder.clone()).with_extension("");
+    let job = JobFolder::new(root, Some(folder.clone()), args.allow_files);
     let mut session = Session::new(Output::new(job, Box::new(stdout()), Box::new(stderr()), colour));
     session.job.output.columns = screen_columns;
     session.job.output.lines = screen_lines;

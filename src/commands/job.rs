@@ -359,6 +359,8 @@ pub struct Job {
     pub taken_states: Vec<(usize, TakenState)>,
     /// Those that the records of a stored run took, which its own records take again.
     pub offered_states: Vec<TakenState>,
+    /// The quasi-static lines that the last run replayed as dynamic ones, and by how much these pull harder.
+    pub screened: Vec<(String, f64)>,
     /// The last run of tethers.
     pub tethered: Option<Tethered>,
     /// The runs that FATIGUE adds up.
@@ -423,6 +425,7 @@ impl Job {
             offered_states: Vec::new(),
             tethered: None,
             scatter: Vec::new(),
+            screened: Vec::new(),
             verdict: Verdict::default(),
             kept_tables: None,
             kept: Kept::default(),

@@ -4,7 +4,7 @@
 pub mod columns;
 pub mod csv;
 pub mod disposition;
-mod embedded;
+pub(crate) mod embedded;
 pub mod files;
 pub mod film;
 pub mod format;

@@ -37,6 +37,7 @@ struct CaseOutput {
     over_break: bool,
     error: Option<String>,
     messages: Vec<String>,
+    caveats: Vec<String>,
     results: Vec<KeptResult>,
     lines: Vec<LineRow>,
     read: Vec<PathBuf>,
@@ -143,6 +144,7 @@ impl RunCase for Processes {
             reason: String::new(),
             seconds: 0.0,
             messages: Vec::new(),
+            caveats: Vec::new(),
             results: Vec::new(),
             lines: Vec::new(),
             read: Vec::new(),
@@ -173,7 +175,8 @@ impl RunCase for Processes {
             (None, false) => CaseStatus::Done,
         };
         record.reason = output.error.unwrap_or_default();
-        (record.messages, record.results, record.lines) = (output.messages, output.results, output.lines);
+        (record.messages, record.caveats) = (output.messages, output.caveats);
+        (record.results, record.lines) = (output.results, output.lines);
         for path in output.read {
             let (size, hash) = self.hash(&path).unwrap_or_default();
             record.read.push(FileRead { path: path.display().to_string(), size, hash });
@@ -195,6 +198,7 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
         over_break: false,
         error: None,
         messages: Vec::new(),
+        caveats: Vec::new(),
         results: Vec::new(),
         lines: Vec::new(),
         read: Vec::new(),
@@ -240,6 +244,7 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
             if verdict.absent > 0 {
                 made.error.get_or_insert_with(|| "a result that was asked for does not exist".to_owned());
             }
+            made.caveats = session.job.run.as_ref().map_or(&session.job.model, |run| &run.model).caveats();
             made.results = session.job.kept.results().to_vec();
             made.lines = std::mem::take(&mut session.job.kept.lines);
             made.read = session.job.output.folder.files_read();

@@ -2,6 +2,7 @@
 
 mod case_process;
 mod ensembles;
+pub mod report;
 mod tables;
 mod variables;
 
@@ -62,7 +63,7 @@ pub struct StudyArgs {
     /// Cases at a time [default: as many as the machine has cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// Cases whose answers are kept; governing: the failed too, and the largest of each result and line
+    /// Cases whose answers are kept; governing: the failed too, and those with the largest or least of a result or the most severe tension of a segment
     #[arg(long, value_enum, default_value_t = KeepArg::Governing)]
     pub keep: KeepArg,
     /// Seed of the study
@@ -164,6 +165,7 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     let plan = StudyPlan {
         folder: folder.clone(),
         model: model.display().to_string(),
+        begun_in: std::env::current_dir().map(|folder| folder.display().to_string()).unwrap_or_default(),
         table_name: table.display().to_string(),
         table: cases,
         seed: args.seed,
@@ -292,7 +294,8 @@ fn rerun(
     let place = folder.join("rerun").join(&record.case);
     let fresh = SystemFiles.remove_folder(&place).and_then(|()| SystemFiles.make_folder(&place));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let processes = Processes::new(Path::new(&study.info.model), cores, program);
+    let script = study.info.find_script(folder).unwrap_or_else(|| PathBuf::from(&study.info.model));
+    let processes = Processes::new(&script, cores, program);
     let (processes, made) = match (fresh, processes) {
         (Ok(()), Ok(processes)) => {
             let made = processes.run(&case, &columns, &place);

@@ -123,10 +123,11 @@ fn result_columns(study: &Study) -> Vec<StoredColumn> {
 /// A number of a row of a line, with its name and unit.
 type LineNumber = (&'static str, &'static str, fn(&LineRow) -> Option<f64>);
 
-const LINE_NUMBERS: [LineNumber; 16] = [
+const LINE_NUMBERS: [LineNumber; 22] = [
     ("mean_tension", "N", |l| l.mean_tension),
     ("dynamic_tension", "N", |l| l.dynamic_tension),
     ("max_tension", "N", |l| l.max_tension),
+    ("largest_tension", "N", |l| l.largest_tension),
     ("maxima", "", |l| l.maxima.map(|n| n as f64)),
     ("mpm", "N", |l| l.mpm),
     ("mpm_low", "N", |l| l.mpm_low),
@@ -135,9 +136,14 @@ const LINE_NUMBERS: [LineNumber; 16] = [
     ("utilisation", "", |l| l.utilisation),
     ("safety_factor", "", |l| l.safety_factor),
     ("required_safety_factor", "", |l| l.required_safety_factor),
+    ("screening_ratio", "", |l| l.screening_ratio),
     ("anchor_horizontal", "N", |l| l.anchor_horizontal),
     ("anchor_vertical", "N", |l| l.anchor_vertical),
     ("uplift", "", |l| l.uplift.map(|u| f64::from(u8::from(u)))),
+    ("anchor_capacity", "N", |l| l.anchor_capacity),
+    ("anchor_safety_factor", "", |l| l.anchor_safety_factor),
+    ("anchor_required_factor", "", |l| l.anchor_required_factor),
+    ("annual_damage", "1/year", |l| l.annual_damage),
     ("grounded_length", "m", |l| l.grounded_length),
     ("offset", "m", |l| l.offset),
 ];
@@ -149,17 +155,17 @@ fn line_columns(study: &Study) -> Vec<StoredColumn> {
     if rows.is_empty() {
         return Vec::new();
     }
-    // a variant as its name in JSON
-    let word = |value: serde_json::Value| value.as_str().map(str::to_owned);
     let texts = |of: &dyn Fn(&CaseRecord, &LineRow) -> Option<String>| rows.iter().map(|(r, l)| of(r, l)).collect();
     let mut columns = vec![
         text_column("case", texts(&|r, _| Some(r.case.clone()))),
         text_column("line", texts(&|_, l| Some(l.line.clone()))),
         number_column("segment", "", rows.iter().map(|(_, l)| l.segment.map(|n| n as f64)).collect()),
-        text_column("analysis", texts(&|_, l| word(serde_json::to_value(l.analysis?).ok()?))),
-        text_column("condition", texts(&|_, l| word(serde_json::to_value(l.condition).ok()?))),
+        text_column("analysis", texts(&|_, l| Some(l.analysis?.word().to_owned()))),
+        text_column("condition", texts(&|_, l| Some(l.condition.word().to_owned()))),
         text_column("lost", texts(&|_, l| Some(l.lost.join(" ")).filter(|t| !t.is_empty()))),
         text_column("code", texts(&|_, l| l.code.clone())),
+        text_column("verdict", texts(&|_, l| Some(l.verdict?.word().to_owned()))),
+        text_column("anchor_verdict", texts(&|_, l| Some(l.anchor_verdict?.word().to_owned()))),
     ];
     columns.extend(
         LINE_NUMBERS

@@ -65,8 +65,19 @@ pub enum LineAnalysis {
     FrequencyDomain,
 }
 
+impl LineAnalysis {
+    /// Its word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            LineAnalysis::QuasiStatic => "quasi-static",
+            LineAnalysis::Dynamic => "dynamic",
+            LineAnalysis::FrequencyDomain => "frequency-domain",
+        }
+    }
+}
+
 /// The state of the mooring that a row is about.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MooringCondition {
     /// Every line acts.
@@ -76,6 +87,51 @@ pub enum MooringCondition {
     Damaged,
     /// Lines are lost during the run.
     Transient,
+}
+
+impl MooringCondition {
+    /// Its word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            MooringCondition::Intact => "intact",
+            MooringCondition::Damaged => "damaged",
+            MooringCondition::Transient => "transient",
+        }
+    }
+}
+
+/// What a check of a line came to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineVerdict {
+    /// Met, by factors that are confirmed.
+    Pass,
+    /// Met, but by factors that are not confirmed: not a pass.
+    Unconfirmed,
+    /// Not met.
+    Fail,
+}
+
+impl LineVerdict {
+    /// Its word in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            LineVerdict::Pass => "pass",
+            LineVerdict::Unconfirmed => "UNCONFIRMED",
+            LineVerdict::Fail => "FAIL",
+        }
+    }
+}
+
+/// By what rows of a segment are compared, the surest first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SeverityKind {
+    /// Utilisation by a code.
+    Utilisation,
+    /// Characteristic tension over the breaking load.
+    TensionOverBreak,
+    /// Tension (N).
+    Tension,
 }
 
 /// What a case says of a line, or of one of its segments. SI units; what was not computed is `None`.
@@ -98,6 +154,8 @@ pub struct LineRow {
     pub dynamic_tension: Option<f64>,
     /// Characteristic tension that is checked (N).
     pub max_tension: Option<f64>,
+    /// Largest tension of the record (N); the characteristic one may be larger, or smaller.
+    pub largest_tension: Option<f64>,
     /// Maxima or samples that the characteristic value is estimated from.
     pub maxima: Option<usize>,
     /// Most probable maximum of the tension (N).
@@ -114,18 +172,53 @@ pub struct LineRow {
     pub safety_factor: Option<f64>,
     /// The safety factor that the code asks for.
     pub required_safety_factor: Option<f64>,
+    /// What the check of the tension came to.
+    pub verdict: Option<LineVerdict>,
     /// Name of the code.
     pub code: Option<String>,
+    /// Edition of the code, clause and source of its factor, and how sure it is.
+    pub factor_source: Option<String>,
+    /// Largest tension as a dynamic line over that of this quasi-static one, where the run replayed it.
+    pub screening_ratio: Option<f64>,
     /// Horizontal force at the anchor (N).
     pub anchor_horizontal: Option<f64>,
     /// Vertical force at the anchor, up (N).
     pub anchor_vertical: Option<f64>,
     /// Whether the anchor is pulled upward.
     pub uplift: Option<bool>,
+    /// Capacity of the anchor (N).
+    pub anchor_capacity: Option<f64>,
+    /// Capacity of the anchor over its pull.
+    pub anchor_safety_factor: Option<f64>,
+    /// The factor that the code asks of the anchor.
+    pub anchor_required_factor: Option<f64>,
+    /// What the check of the anchor came to.
+    pub anchor_verdict: Option<LineVerdict>,
+    /// Fatigue damage in a year of the environment of the case (of all its environments, by their share of the time).
+    pub annual_damage: Option<f64>,
     /// Least length on the seabed (m).
     pub grounded_length: Option<f64>,
     /// Largest horizontal offset of the body (m).
     pub offset: Option<f64>,
+}
+
+impl LineRow {
+    /// Line and segment as tables have them: `L1 2`, or `L1` of the line as a whole.
+    pub fn label(&self) -> String {
+        self.segment.map_or_else(|| self.line.clone(), |segment| format!("{} {segment}", self.line))
+    }
+
+    /// How near the row is to its limit, and by what: of rows of one segment the largest governs. `None` without a tension.
+    pub fn severity(&self) -> Option<(SeverityKind, f64)> {
+        if let Some(utilisation) = self.utilisation {
+            return Some((SeverityKind::Utilisation, utilisation));
+        }
+        let tension = self.max_tension.or(self.largest_tension)?;
+        Some(match self.breaking_load.filter(|load| *load > 0.0) {
+            Some(load) => (SeverityKind::TensionOverBreak, tension / load),
+            None => (SeverityKind::Tension, tension),
+        })
+    }
 }
 
 /// What a script has kept so far.

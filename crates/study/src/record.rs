@@ -54,6 +54,9 @@ pub struct CaseRecord {
     pub seconds: f64,
     /// Errors and warnings.
     pub messages: Vec<String>,
+    /// What every report of the case says: shortcuts of the solve, and what is missing and accepted.
+    #[serde(default)]
+    pub caveats: Vec<String>,
     /// Named results.
     pub results: Vec<KeptResult>,
     /// Rows of lines.

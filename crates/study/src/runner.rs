@@ -22,7 +22,8 @@ pub enum Keep {
     Nothing,
     /// Those that failed.
     Failed,
-    /// Those that failed, and those that govern: the largest value of a result, or the largest tension of a line.
+    /// Those that failed, and those that govern: the largest or the least value of a result, or the most severe row of a segment of a
+    /// line, intact, damaged or transient.
     #[default]
     Governing,
     /// All.
@@ -36,6 +37,8 @@ pub struct StudyPlan {
     pub folder: PathBuf,
     /// The script.
     pub model: String,
+    /// The folder that script and table are named from.
+    pub begun_in: String,
     /// Name of the table.
     pub table_name: String,
     /// The table.
@@ -83,7 +86,8 @@ pub struct StudyEnd {
     pub progress: Progress,
 }
 
-/// The largest values so far, and the cases they are of.
+/// The governing values so far, and the cases they are of: the largest and the least of each result, and the most severe row of each
+/// segment in each condition. Failed cases govern nothing.
 #[derive(Default)]
 struct Governing {
     best: HashMap<String, (f64, String)>,
@@ -94,8 +98,17 @@ struct Governing {
 impl Governing {
     /// Takes up a record: whether it governs, and which cases do so no more.
     fn offer(&mut self, record: &CaseRecord) -> (bool, Vec<String>) {
-        let results = record.results.iter().map(|r| (format!("result {}", r.name.to_ascii_uppercase()), r.value));
-        let lines = record.lines.iter().filter_map(|l| Some((format!("line {}", l.line), l.max_tension?)));
+        if record.status == CaseStatus::Failed {
+            return (false, Vec::new());
+        }
+        let results = record.results.iter().flat_map(|r| {
+            let name = r.name.to_ascii_uppercase();
+            [(format!("largest {name}"), r.value), (format!("least {name}"), -r.value)]
+        });
+        let lines = record.lines.iter().filter_map(|row| {
+            let (kind, value) = row.severity()?;
+            Some((format!("line {} {} {kind:?}", row.label(), row.condition.word()), value))
+        });
         let mut gone = Vec::new();
         for (key, value) in results.chain(lines) {
             let best = self.best.get(&key);
@@ -162,6 +175,7 @@ pub fn run_study(
     let start = earlier.as_ref().map_or(1, |study| study.info.start + 1);
     let info = StudyInfo {
         model: plan.model.clone(),
+        begun_in: plan.begun_in.clone(),
         table: plan.table_name.clone(),
         seed: plan.seed,
         version: plan.version.clone(),

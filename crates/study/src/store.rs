@@ -105,7 +105,11 @@ impl Files for SystemFiles {
     }
 
     fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let mut fresh = tempfile::NamedTempFile::new_in(path.parent().unwrap_or(Path::new(".")))?;
+        let mut builder = tempfile::Builder::new();
+        // as readable as any file that a program makes: the mask of the user applies
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut fresh = builder.tempfile_in(path.parent().unwrap_or(Path::new(".")))?;
         fresh.write_all(bytes)?;
         fresh.as_file().sync_data()?;
         fresh.persist(path).map(drop).map_err(|error| error.error)
@@ -136,7 +140,10 @@ impl Files for SystemFiles {
 pub struct StudyInfo {
     /// The script, from where the study was begun.
     pub model: String,
-    /// The table, likewise.
+    /// The folder that the study was begun in; empty where it is not known.
+    #[serde(default)]
+    pub begun_in: String,
+    /// The table, named like the script.
     pub table: String,
     /// The seed that those of the cases are made from.
     pub seed: u64,
@@ -146,6 +153,19 @@ pub struct StudyInfo {
     pub start: u64,
     /// Names of the cases, in the order of the table.
     pub cases: Vec<String>,
+}
+
+impl StudyInfo {
+    /// The script where it is now: from the present folder, from that which the study was begun in, or from one that the study's own
+    /// folder lies in. `None` where it is in none of them.
+    pub fn find_script(&self, study: &Path) -> Option<PathBuf> {
+        let script = Path::new(&self.model);
+        let begun_in = Some(Path::new(&self.begun_in)).filter(|folder| folder.is_absolute());
+        let study = std::path::absolute(study).ok();
+        let folders = begun_in.into_iter().chain(study.iter().flat_map(|study| study.ancestors()));
+        let places = std::iter::once(script.to_path_buf()).chain(folders.map(|folder| folder.join(script)));
+        { places }.find(|place| place.is_file())
+    }
 }
 
 /// The file of finished cases of a worker.

@@ -481,6 +481,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let summary = summarise(&made, ended.is_err(), job.units);
     let broken = !over.is_empty();
     job.run = Some(made);
+    job.screened = screening.replays.iter().map(|replay| (replay.line.clone(), replay.ratio())).collect();
     if let Some(text) = poor {
         job.warn(text, span);
     }

@@ -85,6 +85,7 @@ impl RunCase for Squares {
             reason: if failed { "four".into() } else { String::new() },
             seconds: 0.0,
             messages: Vec::new(),
+            caveats: Vec::new(),
             results: if failed { Vec::new() } else { vec![KeptResult::new("SQUARE", x * x, "").unwrap()] },
             lines: Vec::new(),
             read: vec![FileRead { path: "model".into(), size: 1, hash: "h".into() }],
@@ -104,6 +105,7 @@ fn plan(folder: &Path) -> StudyPlan {
     StudyPlan {
         folder: folder.join("S"),
         model: "model".into(),
+        begun_in: String::new(),
         table_name: "cases.csv".into(),
         table: CaseTable::parse("cases.csv", table, 1, MOST_CASES).unwrap(),
         seed: 1,

@@ -34,6 +34,8 @@ choices! {
 pub(super) struct SegmentLoad {
     pub mean: f64,
     pub characteristic: f64,
+    /// Largest of the record.
+    pub largest: f64,
     /// What the characteristic tension is.
     pub method: &'static str,
     /// Maxima it is estimated from; none of a line at rest.
@@ -178,6 +180,7 @@ fn characteristic(
     let load = SegmentLoad {
         mean,
         characteristic: largest.max(mean),
+        largest,
         method: "largest",
         maxima: Some(maxima.len()),
         mpm: None,
@@ -226,6 +229,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
         let load = |tension: f64| SegmentLoad {
             mean: tension,
             characteristic: tension,
+            largest: tension,
             method: "at rest",
             maxima: None,
             mpm: None,

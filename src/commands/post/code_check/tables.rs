@@ -15,8 +15,8 @@ use windlass_design_checks::limits::{Side, check_limit};
 use windlass_design_checks::strength::corroded;
 use windlass_design_checks::tension::{LineTension, TensionCheck, check_tension};
 use windlass_design_checks::{CheckError, Verdict};
-use windlass_solve::results::AnchorRecord;
-use windlass_study::kept::{LineAnalysis, LineRow, MooringCondition};
+use windlass_solve::results::{AnchorRecord, ScatterExposure};
+use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, MooringCondition};
 
 /// What stands before the title of a table whose factors are not confirmed.
 const UNCONFIRMED_TITLE: &str = "UNCONFIRMED: ";
@@ -122,8 +122,8 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
         ));
     }
     let mut tables = vec![lines];
-    let anchors = anchors(query, mooring, &mut provenances)?;
-    tables.extend(anchors);
+    let anchors = anchor_rows(query, mooring, &mut provenances)?;
+    tables.extend(anchors.as_ref().map(|(rows, unknown)| anchor_table(rows, unknown)));
     tables.extend(fatigue(job, query, &mut provenances)?);
     tables.extend(limits(job, query, mooring)?);
     let confirmed = provenances.iter().all(Provenance::is_confirmed);
@@ -145,7 +145,10 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
             first.warn("factors from memory: no check of this page is a pass");
         }
     }
-    let kept = rows.iter().map(|row| kept_row(query, mooring, row)).collect();
+    let anchors: Vec<AnchorRow> = anchors.map(|(rows, _)| rows).unwrap_or_default();
+    let source = format!("{}; {}", query.code.edition, provenance_notes(&[rule.provenance]).join("; "));
+    let kept = KeptRows { job, query, mooring, anchors: &anchors, confirmed, source: &source };
+    let kept = rows.iter().map(|row| kept.row(row)).collect();
     Ok((tables, kept))
 }
 
@@ -228,7 +231,15 @@ fn line_table(query: &CheckQuery, mooring: &CheckedMooring, rows: &[SegmentRow])
         .build()
 }
 
-fn anchors(query: &CheckQuery, mooring: &CheckedMooring, provenances: &mut Vec<Provenance>) -> Outcome<Option<Table>> {
+/// Checks of anchors, and the lines whose anchors' loads are not known.
+type AnchorRows<'m> = (Vec<AnchorRow<'m>>, Vec<&'m str>);
+
+/// The checks of anchors that are asked for; none where none is.
+fn anchor_rows<'m>(
+    query: &CheckQuery,
+    mooring: &'m CheckedMooring,
+    provenances: &mut Vec<Provenance>,
+) -> Outcome<Option<AnchorRows<'m>>> {
     let mut rows = Vec::new();
     let mut unknown: Vec<&str> = Vec::new();
     for given in query.each(&ANCHOR) {
@@ -266,11 +277,12 @@ fn anchors(query: &CheckQuery, mooring: &CheckedMooring, provenances: &mut Vec<P
         }
         provenances.push(rule.provenance);
     }
-    if rows.is_empty() && unknown.is_empty() {
-        return Ok(None);
-    }
+    Ok(Some((rows, unknown)).filter(|(rows, unknown)| !(rows.is_empty() && unknown.is_empty())))
+}
+
+fn anchor_table(rows: &[AnchorRow], unknown: &[&str]) -> Table {
     let mut table = Table::new("Code Check of Anchors")
-        .with_rows(&rows)
+        .with_rows(rows)
         .text("Line", |row| row.line)
         .text("Anchor", |row| row.kind.word().to_lowercase())
         .text("Direction", |row| row.direction.word().to_lowercase())
@@ -290,7 +302,7 @@ fn anchors(query: &CheckQuery, mooring: &CheckedMooring, provenances: &mut Vec<P
     if !unknown.is_empty() {
         table.note_absent(format!("{}: what the anchor bears is not known", unknown.join(", ")));
     }
-    Ok(Some(table))
+    table
 }
 
 fn fatigue(job: &Job, query: &CheckQuery, provenances: &mut Vec<Provenance>) -> Outcome<Option<Table>> {
@@ -407,40 +419,93 @@ fn limits(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> Outcome<Op
     Ok(Some(table))
 }
 
-/// What a study keeps of a segment.
-fn kept_row(query: &CheckQuery, mooring: &CheckedMooring, row: &SegmentRow) -> LineRow {
-    let finite = |value: f64| Some(value).filter(|value| value.is_finite());
-    let anchor = row.line.anchor.filter(|_| row.segment == row.line.segments.len());
-    let mpm = row.load.mpm;
-    LineRow {
-        line: row.line.name.clone(),
-        segment: Some(row.segment),
-        analysis: Some(match mooring.analysis {
-            Analysis::QuasiStatic => LineAnalysis::QuasiStatic,
-            Analysis::Dynamic => LineAnalysis::Dynamic,
-        }),
-        condition: match mooring.condition {
-            Condition::Intact => MooringCondition::Intact,
-            Condition::Damaged => MooringCondition::Damaged,
-            Condition::Transient => MooringCondition::Transient,
-        },
-        lost: mooring.lost.clone(),
-        mean_tension: finite(row.load.mean),
-        dynamic_tension: finite(row.load.characteristic - row.load.mean),
-        max_tension: finite(row.load.characteristic),
-        maxima: row.load.maxima,
-        mpm: mpm.map(|(value, _)| value),
-        mpm_low: mpm.map(|(_, (low, _))| low),
-        mpm_high: mpm.map(|(_, (_, high))| high),
-        breaking_load: finite(row.strength),
-        utilisation: finite(row.checked.utilisation),
-        safety_factor: finite(row.checked.safety_factor),
-        required_safety_factor: row.checked.required,
-        code: Some(query.code.name.clone()),
-        anchor_horizontal: anchor.map(|load| load.horizontal),
-        anchor_vertical: anchor.map(|load| load.vertical),
-        uplift: anchor.map(|load| AnchorLoad { horizontal: load.horizontal, vertical: load.vertical }.is_uplifted()),
-        grounded_length: row.line.grounded,
-        offset: None,
+/// What the rows are made of that a study keeps.
+struct KeptRows<'a> {
+    job: &'a Job,
+    query: &'a CheckQuery<'a>,
+    mooring: &'a CheckedMooring,
+    anchors: &'a [AnchorRow<'a>],
+    /// Whether all factors of the check are.
+    confirmed: bool,
+    /// Edition, clause and source of the factor of tension.
+    source: &'a str,
+}
+
+impl KeptRows<'_> {
+    fn verdict(&self, verdict: Verdict) -> LineVerdict {
+        match verdict {
+            Verdict::Pass if self.confirmed => LineVerdict::Pass,
+            Verdict::Pass | Verdict::Unconfirmed => LineVerdict::Unconfirmed,
+            Verdict::Fail => LineVerdict::Fail,
+        }
+    }
+
+    /// Damage in a year of a segment over the environments of the case, where FATIGUE has found it.
+    fn annual_damage(&self, row: &SegmentRow) -> Option<f64> {
+        let scatter = &self.job.scatter;
+        let total: f64 = scatter.iter().map(|run| run.duration).sum();
+        let state = |run: &ScatterExposure| {
+            let (_, line) = run.lines.iter().find(|(name, _)| *name == row.line.name)?;
+            let damage = line.segments.iter().find(|s| s.segment == row.segment)?.damage;
+            Some(WeightedDamage { probability: run.duration / total, damage, record: run.record })
+        };
+        let states: Option<Vec<WeightedDamage>> = scatter.iter().map(state).collect();
+        annual_damage(&states?).ok().map(|(damage, _)| damage)
+    }
+
+    /// What a study keeps of a segment.
+    fn row(&self, row: &SegmentRow) -> LineRow {
+        let mooring = self.mooring;
+        let finite = |value: f64| Some(value).filter(|value| value.is_finite());
+        let is_last = row.segment == row.line.segments.len();
+        let anchor = row.line.anchor.filter(|_| is_last);
+        let checks = self.anchors.iter().filter(|anchor| is_last && anchor.line == row.line.name);
+        let check = checks.max_by(|a, b| {
+            let order = |row: &AnchorRow| (row.checked.verdict, row.checked.utilisation);
+            let ((a, used), (b, of_b)) = (order(a), order(b));
+            a.cmp(&b).then(used.total_cmp(&of_b))
+        });
+        let mpm = row.load.mpm;
+        LineRow {
+            line: row.line.name.clone(),
+            segment: Some(row.segment),
+            analysis: Some(match mooring.analysis {
+                Analysis::QuasiStatic => LineAnalysis::QuasiStatic,
+                Analysis::Dynamic => LineAnalysis::Dynamic,
+            }),
+            condition: match mooring.condition {
+                Condition::Intact => MooringCondition::Intact,
+                Condition::Damaged => MooringCondition::Damaged,
+                Condition::Transient => MooringCondition::Transient,
+            },
+            lost: mooring.lost.clone(),
+            mean_tension: finite(row.load.mean),
+            dynamic_tension: finite(row.load.characteristic - row.load.mean),
+            max_tension: finite(row.load.characteristic),
+            largest_tension: finite(row.load.largest),
+            maxima: row.load.maxima,
+            mpm: mpm.map(|(value, _)| value),
+            mpm_low: mpm.map(|(_, (low, _))| low),
+            mpm_high: mpm.map(|(_, (_, high))| high),
+            breaking_load: finite(row.strength),
+            utilisation: finite(row.checked.utilisation),
+            safety_factor: finite(row.checked.safety_factor),
+            required_safety_factor: row.checked.required,
+            verdict: Some(self.verdict(row.checked.verdict)),
+            code: Some(self.query.code.name.clone()),
+            factor_source: Some(self.source.to_owned()),
+            screening_ratio: self.job.screened.iter().find(|(line, _)| *line == row.line.name).map(|(_, ratio)| *ratio),
+            anchor_horizontal: anchor.map(|load| load.horizontal),
+            anchor_vertical: anchor.map(|load| load.vertical),
+            uplift: anchor
+                .map(|load| AnchorLoad { horizontal: load.horizontal, vertical: load.vertical }.is_uplifted()),
+            anchor_capacity: check.map(|check| check.capacity),
+            anchor_safety_factor: check.and_then(|check| finite(check.checked.safety_factor)),
+            anchor_required_factor: check.map(|check| check.checked.required),
+            anchor_verdict: check.map(|check| self.verdict(check.checked.verdict)),
+            annual_damage: self.annual_damage(row),
+            grounded_length: row.line.grounded,
+            offset: None,
+        }
     }
 }

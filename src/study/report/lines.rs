@@ -1,0 +1,474 @@
+//! What the rows of lines come to: the governing row of each segment in each condition, anchors, fatigue, how the lines were run.
+
+use super::StudyView;
+use super::page::{ReportCell, ReportTable, Section, Tone, in_units};
+use std::collections::{BTreeMap, BTreeSet};
+use windlass_base::units::Dim;
+use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, MooringCondition, SeverityKind};
+use windlass_study::record::CaseRecord;
+
+/// Heads of the column of how often a case occurs.
+pub const PROBABILITY: &str = "probability";
+/// By how much the probabilities of a study may be above one together.
+const PROBABILITY_SLACK: f64 = 1e-6;
+/// Least ratio of the tension of a dynamic line to that of a quasi-static one that is marked.
+const NOTABLE_RATIO: f64 = 1.1;
+
+/// A row that governs, with its case.
+#[derive(Clone, Copy, Debug)]
+pub struct Governing<'a> {
+    /// Its case.
+    pub record: &'a CaseRecord,
+    /// The row.
+    pub row: &'a LineRow,
+}
+
+/// Which row of a segment is meant: intact before damaged before transient, then in the order of the lines.
+type SegmentKey = (MooringCondition, usize);
+
+/// The most severe row of each segment in each condition, of the cases that have not failed.
+pub fn governing_rows<'a>(view: &StudyView<'a>) -> Vec<Governing<'a>> {
+    let mut order: Vec<(&str, Option<usize>)> = Vec::new();
+    let mut best: BTreeMap<SegmentKey, (SeverityKind, f64, Governing<'a>)> = BTreeMap::new();
+    for record in view.ended() {
+        for row in &record.lines {
+            let Some((kind, value)) = row.severity() else { continue };
+            let name = (row.line.as_str(), row.segment);
+            let at = order.iter().position(|known| *known == name).unwrap_or_else(|| {
+                order.push(name);
+                order.len() - 1
+            });
+            let found = (kind, value, Governing { record, row });
+            let known = best.entry((row.condition, at)).or_insert(found);
+            // a row with a utilisation comes before one without
+            if kind < known.0 || (kind == known.0 && value > known.1) {
+                *known = found;
+            }
+        }
+    }
+    let mut rows: Vec<(SegmentKey, Governing)> = best.into_iter().map(|(key, (_, _, found))| (key, found)).collect();
+    let place = |at: usize| order.get(at).copied().unwrap_or_default();
+    rows.sort_by(|(a, _), (b, _)| {
+        let natural = |at: usize| {
+            let (line, segment) = place(at);
+            (natural_order(line), segment)
+        };
+        a.0.cmp(&b.0).then_with(|| natural(a.1).cmp(&natural(b.1)))
+    });
+    rows.into_iter().map(|(_, found)| found).collect()
+}
+
+/// A name split so that L2 comes before L10.
+fn natural_order(name: &str) -> (String, u64, String) {
+    let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
+    let head = name.get(..name.len() - digits.len()).unwrap_or(name);
+    let number = digits.trim_start_matches(|c: char| c.is_ascii_digit());
+    let value = digits.get(..digits.len() - number.len()).and_then(|text| text.parse().ok()).unwrap_or(0);
+    (head.to_owned(), value, number.to_owned())
+}
+
+impl StudyView<'_> {
+    /// A verdict as this report says it: where a factor of the study is not confirmed, nothing is a pass.
+    pub fn verdict(&self, verdict: Option<LineVerdict>) -> ReportCell {
+        let shown = match verdict {
+            Some(LineVerdict::Pass) if self.is_unconfirmed => Some(LineVerdict::Unconfirmed),
+            other => other,
+        };
+        let tone = match shown {
+            None => Tone::Plain,
+            Some(LineVerdict::Pass) => Tone::Pass,
+            Some(LineVerdict::Unconfirmed) => Tone::Unconfirmed,
+            Some(LineVerdict::Fail) => Tone::Fail,
+        };
+        ReportCell::text(shown.map_or("not checked", LineVerdict::word)).toned(tone)
+    }
+
+    fn force(&self, value: Option<f64>) -> ReportCell {
+        ReportCell::figures(in_units(value, Dim::Force, self.units), 5)
+    }
+
+    fn force_head(&self, name: &str) -> String {
+        format!("{name} ({})", Dim::Force.label(self.units))
+    }
+}
+
+/// The governing row of each segment and condition, with its safety factor against the code.
+pub fn governing_table(view: &StudyView, rows: &[Governing]) -> ReportTable {
+    let force = |name: &str| view.force_head(name);
+    let heads = [
+        "Condition".to_owned(),
+        "Line and segment".to_owned(),
+        "Case".to_owned(),
+        "Lines lost".to_owned(),
+        "Run as".to_owned(),
+        force("T mean"),
+        force("T dyn"),
+        force("T char"),
+        force("Largest T"),
+        "n".to_owned(),
+        force("95% low of MPM"),
+        force("95% high of MPM"),
+        force("Strength"),
+        "Safety factor".to_owned(),
+        "Required".to_owned(),
+        "Utilisation".to_owned(),
+        "Verdict".to_owned(),
+    ];
+    let row = |found: &Governing| {
+        let row = found.row;
+        let verdict = view.verdict(row.verdict);
+        let tone = verdict.tone;
+        vec![
+            ReportCell::text(row.condition.word()),
+            ReportCell::text(row.label()),
+            ReportCell::text(&found.record.case),
+            ReportCell::text(row.lost.join(" ")),
+            ReportCell::text(row.analysis.map_or("", LineAnalysis::word)),
+            view.force(row.mean_tension),
+            view.force(row.dynamic_tension),
+            view.force(row.max_tension),
+            view.force(row.largest_tension),
+            ReportCell::number(row.maxima.map(|n| n as f64), 0),
+            view.force(row.mpm_low),
+            view.force(row.mpm_high),
+            view.force(row.breaking_load),
+            ReportCell::number(row.safety_factor, 2).toned(tone),
+            ReportCell::number(row.required_safety_factor, 2),
+            ReportCell::number(row.utilisation, 3).toned(tone),
+            verdict,
+        ]
+    };
+    ReportTable { heads: heads.into(), rows: rows.iter().map(row).collect() }
+}
+
+/// A line a condition: the segment that governs it.
+pub fn summary(view: &StudyView, rows: &[Governing], section: &mut Section) {
+    let mut worst: BTreeMap<MooringCondition, Governing> = BTreeMap::new();
+    for found in rows {
+        let known = worst.entry(found.row.condition).or_insert(*found);
+        let order =
+            |g: &Governing| g.row.severity().map_or((true, 0.0), |(kind, v)| (kind != SeverityKind::Utilisation, -v));
+        let ((a, used), (b, known_used)) = (order(found), order(known));
+        if a.cmp(&b).then(used.total_cmp(&known_used)).is_lt() {
+            *known = *found;
+        }
+    }
+    let mut table = ReportTable::new(&[
+        "Condition",
+        "Cases",
+        "Governing line",
+        "Case",
+        "Safety factor",
+        "Required",
+        "Utilisation",
+        "Verdict",
+        "Rows that fail",
+    ]);
+    for (condition, found) in &worst {
+        let of_condition = |record: &&CaseRecord| record.lines.iter().any(|row| row.condition == *condition);
+        let all = || view.ended().flat_map(|record| &record.lines).filter(|row| row.condition == *condition);
+        let failing = all().filter(|row| row.verdict == Some(LineVerdict::Fail)).count();
+        let verdict = view.verdict(found.row.verdict);
+        table.rows.push(vec![
+            ReportCell::text(condition.word()),
+            ReportCell::number(Some(view.ended().filter(of_condition).count() as f64), 0),
+            ReportCell::text(found.row.label()),
+            ReportCell::text(&found.record.case),
+            ReportCell::number(found.row.safety_factor, 2).toned(verdict.tone),
+            ReportCell::number(found.row.required_safety_factor, 2),
+            ReportCell::number(found.row.utilisation, 3).toned(verdict.tone),
+            verdict,
+            ReportCell::text(format!("{failing} of {}", all().count())),
+        ]);
+    }
+    section.show(table);
+    let sources: BTreeSet<String> = view
+        .ended()
+        .flat_map(|record| &record.lines)
+        .filter_map(|row| Some(format!("{}: {}", row.code.as_ref()?, row.factor_source.as_ref()?)))
+        .collect();
+    sources.into_iter().for_each(|source| section.say(source));
+}
+
+/// How the lines were run, and by how much dynamic lines would pull harder.
+pub fn analysis_section(view: &StudyView, replayed: &[Replayed]) -> Section {
+    let mut section = Section::new("analysis", "How the lines were run");
+    #[derive(Default)]
+    struct OfLine<'a> {
+        cases: [BTreeSet<&'a str>; 3],
+        required: BTreeSet<String>,
+        ratio: Option<(f64, &'a str)>,
+    }
+    let mut lines: BTreeMap<(String, u64, String), (&str, OfLine)> = BTreeMap::new();
+    for record in view.ended() {
+        for row in &record.lines {
+            let (_, line) = lines.entry(natural_order(&row.line)).or_insert((&row.line, OfLine::default()));
+            let at = match row.analysis {
+                Some(LineAnalysis::QuasiStatic) => 0,
+                Some(LineAnalysis::Dynamic) => 1,
+                Some(LineAnalysis::FrequencyDomain) => 2,
+                None => continue,
+            };
+            line.cases[at].insert(&record.case);
+            if let Some(required) = row.required_safety_factor {
+                line.required.insert(format!("{} {required}", row.condition.word()));
+            }
+            if let Some(ratio) = row.screening_ratio
+                && line.ratio.is_none_or(|(known, _)| ratio > known)
+            {
+                line.ratio = Some((ratio, &record.case));
+            }
+        }
+    }
+    if lines.is_empty() {
+        section.say("No case keeps rows of lines: CODE_CHECK in the script does.");
+        return section;
+    }
+    let mut table = ReportTable::new(&[
+        "Line",
+        "Cases quasi-static",
+        "Cases dynamic",
+        "Cases by frequency domain",
+        "Safety factors asked for",
+        "Largest screening ratio",
+        "In case",
+    ]);
+    for (name, line) in lines.values() {
+        let count = |at: usize| ReportCell::number(line.cases.get(at).map(|cases| cases.len() as f64), 0);
+        let required: Vec<&str> = line.required.iter().map(String::as_str).collect();
+        let ratio = ReportCell::number(line.ratio.map(|(ratio, _)| ratio), 3);
+        let tone =
+            if line.ratio.is_some_and(|(ratio, _)| ratio > NOTABLE_RATIO) { Tone::Unconfirmed } else { Tone::Plain };
+        table.rows.push(vec![
+            ReportCell::text(*name),
+            count(0),
+            count(1),
+            count(2),
+            ReportCell::text(required.join(", ")),
+            ratio.toned(tone),
+            ReportCell::text(line.ratio.map_or("", |(_, case)| case)),
+        ]);
+    }
+    let quasi_static = lines.values().any(|(_, line)| line.cases.first().is_some_and(|cases| !cases.is_empty()));
+    let screened = lines.values().any(|(_, line)| line.ratio.is_some());
+    section.show(table);
+    if quasi_static {
+        section.say(
+            "A quasi-static line has no inertia and no drag of its own. The screening ratio is the largest tension of the same line \
+             as a dynamic one, its ends moved as in the run, over that of the quasi-static line (TDOM -SCREEN). A ratio above one is \
+             what the quasi-static factors of the code have to cover.",
+        );
+        if !screened && replayed.is_empty() {
+            section.say_in(
+                Tone::Unconfirmed,
+                "No run was screened (TDOM -SCREEN NO) and no governing run is kept to be replayed: what quasi-static lines cost is not known.",
+            );
+        }
+    }
+    let mut table = ReportTable::new(&["Case", "Line", "Run as", "", "", "Ratio"]);
+    for (at, name) in [(3, "Largest T quasi-static"), (4, "Largest T dynamic")] {
+        if let Some(head) = table.heads.get_mut(at) {
+            *head = view.force_head(name);
+        }
+    }
+    for one in replayed {
+        let tone = if one.ratio() > NOTABLE_RATIO { Tone::Unconfirmed } else { Tone::Plain };
+        table.rows.push(vec![
+            ReportCell::text(&one.case),
+            ReportCell::text(&one.line),
+            ReportCell::text("quasi-static"),
+            view.force(Some(one.quasi_static)),
+            view.force(Some(one.dynamic)),
+            ReportCell::number(Some(one.ratio()), 3).toned(tone),
+        ]);
+    }
+    if !table.rows.is_empty() {
+        section.head("Governing runs, their most loaded lines replayed as dynamic lines for this report");
+        section.show(table);
+    }
+    section
+}
+
+/// A line of a governing run that was replayed as a dynamic line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Replayed {
+    /// The case.
+    pub case: String,
+    /// The line.
+    pub line: String,
+    /// Largest tension of the quasi-static line (N).
+    pub quasi_static: f64,
+    /// Largest tension of the dynamic line (N).
+    pub dynamic: f64,
+}
+
+impl Replayed {
+    fn ratio(&self) -> f64 {
+        self.dynamic / self.quasi_static
+    }
+}
+
+/// The largest pull of each anchor in each condition.
+pub fn anchor_section(view: &StudyView) -> Section {
+    let mut section = Section::new("anchors", "Anchors");
+    let mut best: BTreeMap<(MooringCondition, (String, u64, String)), Governing> = BTreeMap::new();
+    let mut lifted: BTreeMap<(MooringCondition, &str), usize> = BTreeMap::new();
+    for record in view.ended() {
+        for row in record.lines.iter().filter(|row| row.anchor_horizontal.is_some()) {
+            let order = |g: &LineRow| {
+                let pull = g.anchor_horizontal.unwrap_or(0.0).hypot(g.anchor_vertical.unwrap_or(0.0));
+                let used = g.anchor_required_factor.zip(g.anchor_safety_factor).map_or(0.0, |(asked, had)| asked / had);
+                (g.anchor_verdict == Some(LineVerdict::Fail), used, pull)
+            };
+            let found = Governing { record, row };
+            let known = best.entry((row.condition, natural_order(&row.line))).or_insert(found);
+            let ((a, used, pull), (b, known_used, known_pull)) = (order(row), order(known.row));
+            if a.cmp(&b).then(used.total_cmp(&known_used)).then(pull.total_cmp(&known_pull)).is_gt() {
+                *known = found;
+            }
+            if row.uplift == Some(true) {
+                *lifted.entry((row.condition, &row.line)).or_default() += 1;
+            }
+        }
+    }
+    if best.is_empty() {
+        section.say("No case keeps what an anchor bears.");
+        return section;
+    }
+    let heads = [
+        "Condition".to_owned(),
+        "Line".to_owned(),
+        "Case".to_owned(),
+        view.force_head("Horizontal"),
+        view.force_head("Vertical"),
+        "Cases with uplift".to_owned(),
+        view.force_head("Capacity"),
+        "Safety factor".to_owned(),
+        "Required".to_owned(),
+        "Verdict".to_owned(),
+    ];
+    let mut table = ReportTable { heads: heads.into(), rows: Vec::new() };
+    for ((condition, _), found) in &best {
+        let row = found.row;
+        let uplifts = lifted.get(&(*condition, row.line.as_str())).copied().unwrap_or(0);
+        let verdict = view.verdict(row.anchor_verdict);
+        table.rows.push(vec![
+            ReportCell::text(condition.word()),
+            ReportCell::text(&row.line),
+            ReportCell::text(&found.record.case),
+            view.force(row.anchor_horizontal),
+            view.force(row.anchor_vertical),
+            ReportCell::number(Some(uplifts as f64), 0),
+            view.force(row.anchor_capacity),
+            ReportCell::number(row.anchor_safety_factor, 2).toned(verdict.tone),
+            ReportCell::number(row.anchor_required_factor, 2),
+            verdict,
+        ]);
+    }
+    section.show(table);
+    section.say("The largest pull at each anchor, the friction of the line on the bottom in it; of anchors that are checked the one nearest to its factor.");
+    if best.values().all(|found| found.row.anchor_capacity.is_none()) {
+        section.say("No capacity was given: CODE_CHECK -ANCHOR KIND DIRECTION CAPACITY checks an anchor.");
+    }
+    section
+}
+
+/// Fatigue of each segment: the damage of each case by how often it occurs.
+pub fn fatigue_section(view: &StudyView) -> Section {
+    let mut section = Section::new("fatigue", "Fatigue");
+    // a script that checks twice has two rows of a segment, with one damage
+    let is_first = |record: &CaseRecord, at: usize, row: &LineRow| {
+        let earlier = record.lines.get(..at).unwrap_or_default();
+        !earlier.iter().any(|e| e.line == row.line && e.segment == row.segment && e.annual_damage.is_some())
+    };
+    let with_damage = || {
+        let rows = view.ended().flat_map(|r| r.lines.iter().enumerate().map(move |(at, row)| (r, at, row)));
+        let rows = rows.filter(|(record, at, row)| row.annual_damage.is_some() && is_first(record, *at, row));
+        rows.map(|(record, _, row)| (record, row))
+    };
+    if with_damage().next().is_none() {
+        section.say("No case keeps fatigue damage: FATIGUE before CODE_CHECK in the script does.");
+        return section;
+    }
+    let probability = |record: &CaseRecord| {
+        let (_, text) = record.values.iter().find(|(name, _)| name.eq_ignore_ascii_case(PROBABILITY))?;
+        text.parse::<f64>().ok().filter(|p| p.is_finite() && *p >= 0.0)
+    };
+    type Key = (MooringCondition, (String, u64, String), Option<usize>);
+    struct Sum<'a> {
+        label: String,
+        cases: usize,
+        probability: f64,
+        damage: f64,
+        largest: (f64, &'a str),
+        unweighted: usize,
+    }
+    let mut sums: BTreeMap<Key, Sum> = BTreeMap::new();
+    for (record, row) in with_damage() {
+        let damage = row.annual_damage.unwrap_or(0.0);
+        let key = (row.condition, natural_order(&row.line), row.segment);
+        let sum = sums.entry(key).or_insert(Sum {
+            label: row.label(),
+            cases: 0,
+            probability: 0.0,
+            damage: 0.0,
+            largest: (0.0, ""),
+            unweighted: 0,
+        });
+        sum.cases += 1;
+        match probability(record) {
+            Some(p) => {
+                sum.probability += p;
+                sum.damage += p * damage;
+                if p * damage > sum.largest.0 {
+                    sum.largest = (p * damage, &record.case);
+                }
+            }
+            None => sum.unweighted += 1,
+        }
+    }
+    let mut table = ReportTable::new(&[
+        "Condition",
+        "Line and segment",
+        "Cases",
+        "Sum of probabilities",
+        "Damage a year",
+        "Life (years)",
+        "Most damage in case",
+        "Its share",
+    ]);
+    let (mut unweighted, mut above) = (0, false);
+    for ((condition, ..), sum) in &sums {
+        unweighted += sum.unweighted;
+        above |= sum.probability > 1.0 + PROBABILITY_SLACK;
+        let damage = (sum.unweighted == 0 && sum.probability <= 1.0 + PROBABILITY_SLACK).then_some(sum.damage);
+        let life = damage.filter(|damage| *damage > 0.0).map(f64::recip);
+        table.rows.push(vec![
+            ReportCell::text(condition.word()),
+            ReportCell::text(&sum.label),
+            ReportCell::number(Some(sum.cases as f64), 0),
+            ReportCell::figures((sum.unweighted < sum.cases).then_some(sum.probability), 4),
+            ReportCell::figures(damage, 4),
+            ReportCell::figures(life, 4),
+            ReportCell::text(damage.map_or("", |_| sum.largest.1)),
+            ReportCell::number(damage.filter(|damage| *damage > 0.0).map(|damage| sum.largest.0 / damage), 3),
+        ]);
+    }
+    section.show(table);
+    section.say(
+        "The damage of each case, as if it lasted a year, times its column probability, the share of the time that it occurs. No fatigue factor is in the life.",
+    );
+    if unweighted > 0 {
+        section.say_in(
+            Tone::Unconfirmed,
+            format!("{unweighted} rows have no number in a column {PROBABILITY}: how often they occur is not known, and so neither is the life."),
+        );
+    }
+    if above {
+        section.say_in(
+            Tone::Unconfirmed,
+            "Probabilities are above 1 together: no life is given. Members of one sea share its probability.",
+        );
+    }
+    section
+}
