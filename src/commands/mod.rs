@@ -50,7 +50,7 @@ use post::{code_check, frequency_equations, frequency_posts, frequency_statistic
 pub(crate) use settings::device::{existing, within_check};
 use settings::{accepted, device, history, name_list, parameter, units};
 pub use solve::lines::ADDED as COLUMNS_OF_LINES;
-pub use solve::stored::{StoredError, find_stored};
+pub use solve::stored::{StoredError, file_of_run, find_stored};
 pub(crate) use solve::summary::count;
 use solve::{action, conn_design, equilibrium, excursion, frequency, hstatics, lines, prescribe, tdom};
 use status::summary_menu;

@@ -12,6 +12,7 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::time::Instant;
 use windlass_base::diagnostic::Severity;
+use windlass_base::units::Dim;
 use windlass_study::kept::{KeptResult, LineRow};
 use windlass_study::record::{CaseRecord, CaseStatus, FileRead};
 use windlass_study::runner::RunCase;
@@ -36,6 +37,8 @@ struct CaseOutput {
     interrupted: bool,
     over_break: bool,
     error: Option<String>,
+    title: String,
+    units: Option<(String, String)>,
     messages: Vec<String>,
     caveats: Vec<String>,
     results: Vec<KeptResult>,
@@ -142,6 +145,8 @@ impl RunCase for Processes {
             seed: case.seed,
             status: CaseStatus::Failed,
             reason: String::new(),
+            title: String::new(),
+            units: None,
             seconds: 0.0,
             messages: Vec::new(),
             caveats: Vec::new(),
@@ -175,6 +180,7 @@ impl RunCase for Processes {
             (None, false) => CaseStatus::Done,
         };
         record.reason = output.error.unwrap_or_default();
+        (record.title, record.units) = (output.title, output.units);
         (record.messages, record.caveats) = (output.messages, output.caveats);
         (record.results, record.lines) = (output.results, output.lines);
         for path in output.read {
@@ -197,6 +203,8 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
         interrupted: false,
         over_break: false,
         error: None,
+        title: String::new(),
+        units: None,
         messages: Vec::new(),
         caveats: Vec::new(),
         results: Vec::new(),
@@ -244,6 +252,9 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
             if verdict.absent > 0 {
                 made.error.get_or_insert_with(|| "a result that was asked for does not exist".to_owned());
             }
+            let units = session.job.units;
+            made.title = session.job.titles.first().cloned().unwrap_or_default();
+            made.units = Some((Dim::Length.label(units), Dim::Force.label(units)));
             made.caveats = session.job.run.as_ref().map_or(&session.job.model, |run| &run.model).caveats();
             made.results = session.job.kept.results().to_vec();
             made.lines = std::mem::take(&mut session.job.kept.lines);

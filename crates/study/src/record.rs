@@ -50,6 +50,12 @@ pub struct CaseRecord {
     pub status: CaseStatus,
     /// Why it failed; empty of others.
     pub reason: String,
+    /// Title of its job.
+    #[serde(default)]
+    pub title: String,
+    /// Labels of the units of length and of force that its script uses.
+    #[serde(default)]
+    pub units: Option<(String, String)>,
     /// Seconds of the clock that it took.
     pub seconds: f64,
     /// Errors and warnings.

@@ -26,6 +26,11 @@ pub enum StoredError {
     Unreadable(String, RunLogError),
 }
 
+/// The file of the run in a folder of answers; none where it holds no run.
+pub fn file_of_run(folder: &Path) -> Option<&'static str> {
+    [tdom::FILE, tether_run::FILE].into_iter().find(|name| folder.join(name).is_file())
+}
+
 /// The run that a folder of answers holds, and the records that make its model, its own record last.
 ///
 /// # Errors
@@ -35,8 +40,7 @@ pub fn find_stored(folder: &Path) -> Result<(StoredRun, String), StoredError> {
     if !folder.is_dir() {
         return Err(StoredError::NoFolder(shown(folder)));
     }
-    let files = [tdom::FILE, tether_run::FILE];
-    let Some(name) = files.into_iter().find(|name| folder.join(name).is_file()) else {
+    let Some(name) = file_of_run(folder) else {
         return Err(StoredError::NoRun(shown(folder)));
     };
     let path = folder.join(name);

@@ -248,7 +248,7 @@ pub fn direction_section(view: &StudyView) -> Section {
             ];
             row.extend(here.results.iter().map(|value| ReportCell::figures(*value, FIGURES)));
             row.extend([
-                ReportCell::figures(in_units(here.tension.as_ref().map(|(t, _)| *t), Dim::Force, view.units), FIGURES),
+                ReportCell::quantity(here.tension.as_ref().map(|(t, _)| *t), Dim::Force, view.units),
                 ReportCell::text(here.tension.as_ref().map_or("", |(_, line)| line)),
                 ReportCell::number(here.factor.as_ref().map(|(factor, ..)| *factor), 2).toned(verdict.tone),
                 ReportCell::text(here.factor.as_ref().map_or("", |(_, line, _)| line)),

@@ -1,7 +1,7 @@
 //! The run of a case whose answers are kept, opened again: pictures, histories, tables of the model.
 
 use super::lines::{Governing, Replayed};
-use crate::commands::{KeptTable, find_stored};
+use crate::commands::{KeptTable, file_of_run, find_stored};
 use crate::report::files::JobFolder;
 use crate::report::output::Output;
 use crate::report::picture::{Picture, USUAL_WIDTH, View};
@@ -36,15 +36,17 @@ pub struct KeptRun {
 }
 
 impl KeptRun {
+    /// Whether the study keeps a run of a case.
+    pub fn is_kept(study: &Path, case: &str) -> bool {
+        file_of_run(&study.join(KEPT_CASES).join(case)).is_some()
+    }
+
     /// Opens the run of a case.
     ///
     /// # Errors
-    /// No answers are kept, or their records do not make the run's model again.
+    /// A run that cannot be read, or whose records do not make its model again.
     pub fn open(study: &Path, case: &str) -> Result<KeptRun, String> {
         let folder = study.join(KEPT_CASES).join(case);
-        if !folder.is_dir() {
-            return Err("its answers are not kept".into());
-        }
         let (kept, records) = find_stored(&folder).map_err(|error| error.to_string())?;
         let root = script_of_case(&folder).map_or_else(|| folder.clone(), |script| script.with_extension(""));
         let job = JobFolder::new(root, Some(folder), false);
@@ -56,17 +58,12 @@ impl KeptRun {
         }
         let wrong = |severity| matches!(severity, Severity::Error | Severity::Fatal);
         let first = session.reports.iter().find(|said| wrong(said.severity)).map(|said| said.message.clone());
-        Err(format!("its run cannot be opened: {}", first.unwrap_or_default()))
+        Err(first.unwrap_or_else(|| "its records do not make its model again".into()))
     }
 
     /// The user's units.
-    pub fn units(&self) -> UnitSystem {
+    fn units(&self) -> UnitSystem {
         self.session.job.units
-    }
-
-    /// The title of the job.
-    pub fn title(&self) -> &str {
-        self.session.job.titles.first().map(String::as_str).unwrap_or_default()
     }
 
     fn run(&self) -> Result<&Run, String> {
@@ -142,10 +139,9 @@ impl KeptRun {
         let force = |value: f64| Dim::Force.from_si(value, units);
         let points = record.times.iter().zip(tensions).map(|(t, f)| Some((*t, force(*f)))).collect();
         let mut series = vec![PlotSeries { name: format!("tension of {}", row.label()), points, right: false }];
-        let ends = [record.times.first().copied().unwrap_or(time), record.times.last().copied().unwrap_or(time)];
         let mut level = |name: String, value: Option<f64>| {
             if let Some(value) = value {
-                let points = ends.iter().map(|t| Some((*t, force(value)))).collect();
+                let points = record.times.iter().map(|t| Some((*t, force(value)))).collect();
                 series.push(PlotSeries { name, points, right: false });
             }
         };

@@ -1,7 +1,7 @@
 //! What the rows of lines come to: the governing row of each segment in each condition, anchors, fatigue, how the lines were run.
 
 use super::StudyView;
-use super::page::{ReportCell, ReportTable, Section, Tone, in_units};
+use super::page::{ReportCell, ReportTable, Section, Tone};
 use std::collections::{BTreeMap, BTreeSet};
 use windlass_base::units::Dim;
 use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, MooringCondition, SeverityKind};
@@ -84,7 +84,7 @@ impl StudyView<'_> {
     }
 
     fn force(&self, value: Option<f64>) -> ReportCell {
-        ReportCell::figures(in_units(value, Dim::Force, self.units), 5)
+        ReportCell::quantity(value, Dim::Force, self.units)
     }
 
     fn force_head(&self, name: &str) -> String {
@@ -100,45 +100,86 @@ pub fn governing_table(view: &StudyView, rows: &[Governing]) -> ReportTable {
         "Line and segment".to_owned(),
         "Case".to_owned(),
         "Lines lost".to_owned(),
-        "Run as".to_owned(),
-        force("T mean"),
-        force("T dyn"),
-        force("T char"),
-        force("Largest T"),
-        "n".to_owned(),
-        force("95% low of MPM"),
-        force("95% high of MPM"),
-        force("Strength"),
         "Safety factor".to_owned(),
         "Required".to_owned(),
         "Utilisation".to_owned(),
         "Verdict".to_owned(),
+        force("T char"),
+        force("Largest T"),
+        force("T mean"),
+        force("T dyn"),
+        force("Strength"),
+        force("95% of MPM, low"),
+        force("high"),
+        "n".to_owned(),
+        "Run as".to_owned(),
     ];
     let row = |found: &Governing| {
         let row = found.row;
         let verdict = view.verdict(row.verdict);
         let tone = verdict.tone;
+        let largest = if is_exceeded(row) { Tone::Unconfirmed } else { Tone::Plain };
         vec![
             ReportCell::text(row.condition.word()),
             ReportCell::text(row.label()),
             ReportCell::text(&found.record.case),
             ReportCell::text(row.lost.join(" ")),
-            ReportCell::text(row.analysis.map_or("", LineAnalysis::word)),
-            view.force(row.mean_tension),
-            view.force(row.dynamic_tension),
-            view.force(row.max_tension),
-            view.force(row.largest_tension),
-            ReportCell::number(row.maxima.map(|n| n as f64), 0),
-            view.force(row.mpm_low),
-            view.force(row.mpm_high),
-            view.force(row.breaking_load),
             ReportCell::number(row.safety_factor, 2).toned(tone),
             ReportCell::number(row.required_safety_factor, 2),
             ReportCell::number(row.utilisation, 3).toned(tone),
             verdict,
+            view.force(row.max_tension),
+            view.force(row.largest_tension).toned(largest),
+            view.force(row.mean_tension),
+            view.force(row.dynamic_tension),
+            view.force(row.breaking_load),
+            view.force(row.mpm_low),
+            view.force(row.mpm_high),
+            ReportCell::number(row.maxima.map(|n| n as f64), 0),
+            ReportCell::text(row.analysis.map_or("", LineAnalysis::word)),
         ]
     };
-    ReportTable { heads: heads.into(), rows: rows.iter().map(row).collect() }
+    ReportTable { heads: heads.into(), rows: rows.iter().map(row).collect() }.without_empty_columns()
+}
+
+/// Whether the record has a tension beyond the characteristic one that is checked.
+fn is_exceeded(row: &LineRow) -> bool {
+    row.max_tension.zip(row.largest_tension).is_some_and(|(checked, largest)| largest > checked)
+}
+
+/// What a reviewer asks first: records in which a tension is larger than what is checked, and how many would not be met by it.
+fn exceedances(view: &StudyView, section: &mut Section) {
+    let rows = || view.ended().flat_map(|record| record.lines.iter().map(move |row| (record, row)));
+    let exceeded: Vec<_> = rows().filter(|(_, row)| is_exceeded(row)).collect();
+    if exceeded.is_empty() {
+        return;
+    }
+    let factor = |row: &LineRow| Some(row.breaking_load? / row.largest_tension?);
+    let missed = |row: &LineRow| factor(row).zip(row.required_safety_factor).is_some_and(|(had, asked)| had < asked);
+    let least = exceeded.iter().filter_map(|(record, row)| Some((factor(row)?, *record, *row)));
+    let least = least.reduce(|a, b| if b.0 < a.0 { b } else { a });
+    let mut text = format!(
+        "In {} of {} rows the largest tension of the record is above the characteristic tension that is checked",
+        exceeded.len(),
+        rows().count()
+    );
+    if let Some((factor, record, row)) = least {
+        text.push_str(&format!(
+            ": strength over it is least {factor:.2} ({}, {}, case {})",
+            row.label(),
+            row.condition.word(),
+            record.case
+        ));
+    }
+    let met = exceeded.iter().filter(|(_, row)| row.verdict != Some(LineVerdict::Fail) && missed(row)).count();
+    if met > 0 {
+        text.push_str(&format!(
+            ". {met} of them {} met by the most probable maximum and would not be by the largest of the record: judge by all seeds \
+             together, or check the largest (CODE_CHECK -CHARACTERISTIC LARGEST)",
+            if met == 1 { "is" } else { "are" }
+        ));
+    }
+    section.say_in(if met > 0 { Tone::Unconfirmed } else { Tone::Plain }, text + ".");
 }
 
 /// A line a condition: the segment that governs it.
@@ -187,6 +228,7 @@ pub fn summary(view: &StudyView, rows: &[Governing], section: &mut Section) {
         .flat_map(|record| &record.lines)
         .filter_map(|row| Some(format!("{}: {}", row.code.as_ref()?, row.factor_source.as_ref()?)))
         .collect();
+    exceedances(view, section);
     sources.into_iter().for_each(|source| section.say(source));
 }
 
@@ -234,7 +276,9 @@ pub fn analysis_section(view: &StudyView, replayed: &[Replayed]) -> Section {
         "In case",
     ]);
     for (name, line) in lines.values() {
-        let count = |at: usize| ReportCell::number(line.cases.get(at).map(|cases| cases.len() as f64), 0);
+        let count = |at: usize| {
+            ReportCell::number(line.cases.get(at).filter(|cases| !cases.is_empty()).map(|cases| cases.len() as f64), 0)
+        };
         let required: Vec<&str> = line.required.iter().map(String::as_str).collect();
         let ratio = ReportCell::number(line.ratio.map(|(ratio, _)| ratio), 3);
         let tone =
@@ -251,7 +295,7 @@ pub fn analysis_section(view: &StudyView, replayed: &[Replayed]) -> Section {
     }
     let quasi_static = lines.values().any(|(_, line)| line.cases.first().is_some_and(|cases| !cases.is_empty()));
     let screened = lines.values().any(|(_, line)| line.ratio.is_some());
-    section.show(table);
+    section.show(table.without_empty_columns());
     if quasi_static {
         section.say(
             "A quasi-static line has no inertia and no drag of its own. The screening ratio is the largest tension of the same line \
@@ -358,14 +402,18 @@ pub fn anchor_section(view: &StudyView) -> Section {
             ReportCell::text(&found.record.case),
             view.force(row.anchor_horizontal),
             view.force(row.anchor_vertical),
-            ReportCell::number(Some(uplifts as f64), 0),
+            ReportCell::number(Some(uplifts as f64), 0).toned(if uplifts > 0 {
+                Tone::Unconfirmed
+            } else {
+                Tone::Plain
+            }),
             view.force(row.anchor_capacity),
             ReportCell::number(row.anchor_safety_factor, 2).toned(verdict.tone),
             ReportCell::number(row.anchor_required_factor, 2),
             verdict,
         ]);
     }
-    section.show(table);
+    section.show(table.without_empty_columns());
     section.say("The largest pull at each anchor, the friction of the line on the bottom in it; of anchors that are checked the one nearest to its factor.");
     if best.values().all(|found| found.row.anchor_capacity.is_none()) {
         section.say("No capacity was given: CODE_CHECK -ANCHOR KIND DIRECTION CAPACITY checks an anchor.");

@@ -16,10 +16,10 @@ use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use windlass_base::printable::printable;
-use windlass_base::units::{ForceUnit, LengthUnit, UnitSystem};
+use windlass_base::units::{Dim, ForceUnit, LengthUnit, UnitSystem};
 use windlass_study::kept::{LineAnalysis, LineVerdict};
 use windlass_study::record::{CaseRecord, CaseStatus};
-use windlass_study::store::{Files, KEPT_CASES, Study, StudyError, SystemFiles};
+use windlass_study::store::{Files, Study, StudyError, SystemFiles};
 
 /// Extremes over seeds, where the study has them.
 const ENSEMBLES: &str = "ensembles.csv";
@@ -183,7 +183,7 @@ fn write_report(args: &ReportArgs) -> Result<String, ReportError> {
     let place = Place::new(args).map_err(ReportError::Usage)?;
     let mut view = StudyView {
         study: &study,
-        units: UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Kilonewtons },
+        units: units_of(&study),
         is_unconfirmed: study
             .records
             .iter()
@@ -211,10 +211,30 @@ fn write_report(args: &ReportArgs) -> Result<String, ReportError> {
     Ok(text)
 }
 
+/// The units of the script; metres and kilonewtons where no case says them.
+fn units_of(study: &Study) -> UnitSystem {
+    let forces = [
+        ForceUnit::Kilonewtons,
+        ForceUnit::Kips,
+        ForceUnit::LongTons,
+        ForceUnit::ShortTons,
+        ForceUnit::MetricTons,
+        ForceUnit::Newtons,
+    ];
+    let all = forces
+        .into_iter()
+        .flat_map(|force| [LengthUnit::Meters, LengthUnit::Feet].map(|length| UnitSystem { length, force }));
+    let said = study.records.iter().find_map(|record| record.units.as_ref());
+    let is_said = |units: &UnitSystem| {
+        said.is_some_and(|(length, force)| Dim::Length.label(*units) == *length && Dim::Force.label(*units) == *force)
+    };
+    { all }.find(is_said).unwrap_or(UnitSystem { length: LengthUnit::Meters, force: ForceUnit::Kilonewtons })
+}
+
 /// The case that a picture of the model is of: that of the most severe row, else the first whose answers are kept.
 fn pictured_case<'a>(study: &'a Path, view: &StudyView<'a>, rows: &[Governing<'a>]) -> Option<&'a str> {
     let severity = |found: &Governing| found.row.severity().map_or(f64::NEG_INFINITY, |(_, value)| value);
-    let is_kept = |case: &str| study.join(KEPT_CASES).join(case).is_dir();
+    let is_kept = |case: &str| KeptRun::is_kept(study, case);
     let kept = rows.iter().filter(|found| is_kept(&found.record.case));
     let worst = kept.reduce(|a, b| if severity(b) > severity(a) { b } else { a });
     let any = || view.ended().map(|record| record.case.as_str()).find(|case| is_kept(case));
@@ -229,11 +249,14 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
     let mut report = Report::default();
     let pictured = pictured_case(study, view, &rows).map(|case| (case, KeptRun::open(study, case)));
     match pictured {
-        None => model.say("No answers of a case are kept: the model is not drawn. windlass study --keep governing, as it is set, keeps them."),
-        Some((case, Err(error))) => model.say_in(Tone::Unconfirmed, format!("The model is not drawn: of case {case} {error}.")),
+        None => model.say(
+            "No run of TDOM is kept: the model is not drawn and there are no histories. windlass study --keep governing, as it is set, keeps \
+             those of the governing cases.",
+        ),
+        Some((case, Err(error))) => {
+            model.say_in(Tone::Unconfirmed, format!("The model is not drawn: the run of case {case} cannot be opened: {error}."));
+        }
         Some((case, Ok(mut kept))) => {
-            view.units = kept.units();
-            report.title = kept.title().to_owned();
             let line = rows.iter().filter(|found| found.record.case == case).map(|found| found.row).reduce(|a, b| {
                 let value = |row: &windlass_study::kept::LineRow| row.severity().map_or(0.0, |(_, value)| value);
                 if value(b) > value(a) { b } else { a }
@@ -276,6 +299,7 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
         by_case.entry(&found.record.case).or_default().push(at);
     }
     let to_replay = cases_to_replay(view, &rows);
+    by_case.retain(|case, _| KeptRun::is_kept(study, case));
     for (case, numbers) in by_case {
         let opened = KeptRun::open(study, case);
         if let (Ok(kept), true) = (&opened, to_replay.contains(&case)) {
@@ -306,9 +330,8 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
     lines::summary(view, &rows, &mut summary);
     let folder =
         study.canonicalize().ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-    if let Some(title) = args.title.clone().or_else(|| report.title.is_empty().then(|| folder.unwrap_or_default())) {
-        report.title = title;
-    }
+    let of_job = view.study.records.iter().map(|record| record.title.trim()).find(|title| !title.is_empty());
+    report.title = args.title.clone().or_else(|| of_job.map(str::to_owned)).or(folder).unwrap_or_default();
     report.banner = banner(view);
     report.sections = vec![
         summary,

@@ -1,12 +1,13 @@
 //! The report as a document: sections of texts, tables and figures, written as one page of HTML and as Markdown.
 
 use crate::report::embedded::base64;
+use crate::report::format;
 use crate::report::plot::PlotError;
 use minijinja::value::Serde;
 use minijinja::{Environment, Value, context};
 use serde::Serialize;
 use windlass_base::printable::printable;
-use windlass_base::table::{Cell, Table};
+use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::{Dim, UnitSystem};
 
 /// The page, and what it takes in.
@@ -60,6 +61,13 @@ impl ReportCell {
         }
     }
 
+    /// A value of SI units as reports have it in the user's; empty of none.
+    pub fn quantity(value: Option<f64>, dim: Dim, units: UnitSystem) -> Self {
+        let Some(value) = value.filter(|value| value.is_finite()) else { return ReportCell::default() };
+        let text = format::report(&Cell::Number(value), dim, Digits::Usual, units);
+        ReportCell { text, number: Some(dim.from_si(value, units)), tone: Tone::Plain }
+    }
+
     /// A number as short as it can be with so many figures; empty of none.
     pub fn figures(value: Option<f64>, figures: usize) -> Self {
         let value = value.filter(|value| value.is_finite());
@@ -93,6 +101,26 @@ pub struct ReportTable {
 }
 
 impl ReportTable {
+    /// The table without the columns that are empty in every row.
+    pub fn without_empty_columns(mut self) -> Self {
+        let is_filled = |at: usize| self.rows.iter().any(|row| row.get(at).is_some_and(|cell| !cell.text.is_empty()));
+        let filled: Vec<bool> = (0..self.heads.len()).map(is_filled).collect();
+        let keeps = |at: usize| filled.get(at).copied().unwrap_or(false);
+        let mut at = 0;
+        self.heads.retain(|_| {
+            at += 1;
+            keeps(at - 1)
+        });
+        for row in &mut self.rows {
+            let mut at = 0;
+            row.retain(|_| {
+                at += 1;
+                keeps(at - 1)
+            });
+        }
+        self
+    }
+
     /// A table with these heads.
     pub fn new(heads: &[&str]) -> Self {
         ReportTable { heads: heads.iter().map(|head| (*head).to_owned()).collect(), rows: Vec::new() }
@@ -187,15 +215,24 @@ impl Section {
 
     /// Adds a table of a record: its title, facts, rows and notes.
     pub fn show_record(&mut self, table: &Table, units: UnitSystem) {
-        use crate::report::format;
         self.head(&table.title);
         if !table.facts.is_empty() {
             let mut facts = ReportTable::new(&["What", "Value"]);
+            let mut above = "";
             for fact in &table.facts {
                 let value = format::report(&fact.value, fact.dim, fact.digits, units);
                 let unit = if fact.value.number().is_some() { fact.dim.label(units) } else { String::new() };
-                let value = format!("{value} {unit}");
-                facts.rows.push(vec![ReportCell::text(fact.name.trim()), ReportCell::text(value.trim())]);
+                let value = if fact.value == Cell::Missing { "not given".into() } else { format!("{value} {unit}") };
+                let name = fact.name.trim();
+                // an indented fact belongs to the one above
+                let name = match fact.name.starts_with(' ') {
+                    true => format!("{above}: {name}"),
+                    false => {
+                        above = name;
+                        name.to_owned()
+                    }
+                };
+                facts.rows.push(vec![ReportCell::text(name), ReportCell::text(value.trim())]);
             }
             self.show(facts);
         }

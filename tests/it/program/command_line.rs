@@ -206,9 +206,6 @@ fn missing_result_exits_with_1_and_a_message() {
 #[test]
 fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     let folder = tempfile::tempdir().unwrap();
-    let (code, out, err) = run_in(folder.path(), &["report", "cases.csv", "--jobs", "3"]);
-    assert_eq!((code, out.as_str()), (Some(2), ""));
-    assert_eq!(err, "windlass: report is not in this version\n");
     let (code, _, err) = run_in(folder.path(), &["check"]);
     assert_eq!(code, Some(2));
     assert!(err.contains("Usage: windlass check <SCRIPT>"), "{err}");
@@ -229,11 +226,11 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
     );
     let (code, _, err) = run_in(folder.path(), &["--batch", "verify"]);
     assert_eq!((code, err.as_str()), (Some(2), "windlass: verify comes first: windlass verify --list\n"));
-    std::fs::write(folder.path().join("report.cif"), "&TYPE mine\n&FINISH\n").unwrap();
-    let (code, _, err) = run_in(folder.path(), &["report"]);
+    std::fs::write(folder.path().join("fmt.cif"), "&TYPE mine\n&FINISH\n").unwrap();
+    let (code, _, err) = run_in(folder.path(), &["fmt"]);
     assert_eq!(code, Some(2));
-    assert!(err.contains("the script report.cif has its name: write `./report` or `report.cif`"), "{err}");
-    for job in [&["./report"][..], &["report.cif"], &["run", "report"], &["run", "report.cif"]] {
+    assert!(err.contains("the script fmt.cif has its name: write `./fmt` or `fmt.cif`"), "{err}");
+    for job in [&["./fmt"][..], &["fmt.cif"], &["run", "fmt"], &["run", "fmt.cif"]] {
         assert_eq!(run_in(folder.path(), job), (Some(0), "mine\n".into(), String::new()), "{job:?}");
     }
     for words in [&["run"][..], &["--batch", "run"]] {
@@ -241,13 +238,14 @@ fn reserved_words_are_commands_and_such_a_root_needs_extension() {
         assert_eq!(code, Some(2));
         assert!(err.contains("run needs a JOB"), "{err}");
     }
-    assert_eq!(run_in(folder.path(), &["--batch", "run", "report"]).1, "mine\n");
-    assert!(run_in(folder.path(), &["-i", "report"]).2.contains("report is not in this version"));
+    assert_eq!(run_in(folder.path(), &["--batch", "run", "fmt"]).1, "mine\n");
+    assert!(run_in(folder.path(), &["-i", "fmt"]).2.contains("fmt is not in this version"));
+    assert!(run_in(folder.path(), &["-i", "report"]).2.contains("report comes first, and takes the folder of a study"));
     assert!(run_in(folder.path(), &["-i", "study"]).2.contains("study comes first, and takes a table and a script"));
-    std::fs::create_dir(folder.path().join("report")).unwrap();
-    let (_, _, err) = run_in(folder.path(), &["report"]);
-    assert!(err.contains("write `report.cif` to run it") && !err.contains("./report"), "{err}");
-    assert_eq!(run_in(folder.path(), &["./report"]).1, "mine\n");
+    std::fs::create_dir(folder.path().join("fmt")).unwrap();
+    let (_, _, err) = run_in(folder.path(), &["fmt"]);
+    assert!(err.contains("write `fmt.cif` to run it") && !err.contains("./fmt"), "{err}");
+    assert_eq!(run_in(folder.path(), &["./fmt"]).1, "mine\n");
     for (word, meant) in [("RUN", "run"), ("chek", "check")] {
         let (code, _, err) = run_in(folder.path(), &[word, "study.cif"]);
         assert_eq!(code, Some(2));
