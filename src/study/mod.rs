@@ -2,6 +2,7 @@
 
 mod case_process;
 mod ensembles;
+mod parquet_table;
 pub mod report;
 mod tables;
 mod variables;
@@ -31,7 +32,7 @@ const MOST_NAMED: usize = 10;
 /// What stands at the end of `windlass study --help`.
 pub const HELP: &str = "\
 Each row of TABLE is a case: its columns become variables of MODEL (%HS%, %HEADING%), the column case names it, and %SEED% is made
-of --seed, the name and the column member. TABLE is a CSV file, or a TOML file of lists that are multiplied. MODEL keeps results by
+of --seed, the name and the column member. TABLE is a CSV or Parquet file, or a TOML file of lists that are multiplied. MODEL keeps results by
 &RESULT, by -RESULT of STATISTIC and EXTREMES, and by CODE_CHECK; they become columns of DIR/results.csv and results.parquet, and
 rows of lines.csv. The same command again goes on where the study was stopped, and runs again what has changed.
 
@@ -51,7 +52,7 @@ pub struct StudyArgs {
     /// Something else to do with a study.
     #[command(subcommand)]
     pub command: Option<StudyCommand>,
-    /// The cases: a CSV file, or a grid of lists in TOML
+    /// The cases: a CSV or Parquet file, or a grid of lists in TOML
     #[arg(required = true)]
     pub table: Option<PathBuf>,
     /// The script
@@ -131,13 +132,7 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
         complain("a study needs a table, a script and --out DIR");
         return StudyExit::Usage;
     };
-    let read = read_regular(table, LARGEST_TABLE).map_err(|error| format!("{}: {error}", table.display()));
-    let text =
-        read.and_then(|bytes| String::from_utf8(bytes).map_err(|_| format!("{}: it is not UTF-8", table.display())));
-    let cases = text.and_then(|text| {
-        CaseTable::parse(&table.display().to_string(), &text, args.seed, args.max_cases)
-            .map_err(|error| error.to_string())
-    });
+    let cases = read_table(table, args.seed, args.max_cases);
     let cases = match cases {
         Ok(cases) => cases,
         Err(error) => {
@@ -224,6 +219,17 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
 /// A folder without a study, and what the system refuses.
 pub fn read(folder: &Path) -> Result<StudyTables, StudyError> {
     Study::open(folder).map(|study| StudyTables::new(&study))
+}
+
+/// The table of a file: Parquet, TOML or CSV by how its name ends.
+fn read_table(table: &Path, seed: u64, most: usize) -> Result<CaseTable, String> {
+    if table.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
+        return parquet_table::read(table, seed, most).map_err(|error| error.to_string());
+    }
+    let name = table.display().to_string();
+    let bytes = read_regular(table, LARGEST_TABLE).map_err(|error| format!("{name}: {error}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| format!("{name}: it is not UTF-8"))?;
+    CaseTable::parse(&name, &text, seed, most).map_err(|error| error.to_string())
 }
 
 /// A bar at a terminal, with the rate and the time to go.

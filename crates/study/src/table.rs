@@ -23,7 +23,7 @@ pub const SEED: &str = "seed";
 pub struct TableError {
     /// The file.
     pub file: String,
-    /// Its line, from 1.
+    /// Its line, or its row where the file has no lines, from 1.
     pub line: Option<u64>,
     /// The column of the table.
     pub column: Option<String>,
@@ -69,6 +69,20 @@ impl CaseTable {
         let is_toml = file.len() > 5 && file.to_ascii_lowercase().ends_with(".toml");
         let rows = if is_toml { grid_rows(file, text, most)? } else { csv_rows(file, text, most)? };
         rows.into_table(file, study_seed)
+    }
+
+    /// The table of rows of cells under heads, as another reader has them.
+    ///
+    /// # Errors
+    /// As [`CaseTable::parse`]; rows are counted from 1.
+    pub fn from_rows(
+        file: &str,
+        heads: Vec<String>,
+        rows: Vec<Vec<String>>,
+        study_seed: u64,
+    ) -> Result<Self, TableError> {
+        let rows = rows.into_iter().zip(1..).map(|(row, number)| (Some(number), row)).collect();
+        Rows { heads, rows, naming: Vec::new() }.into_table(file, study_seed)
     }
 }
 

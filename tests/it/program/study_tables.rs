@@ -123,3 +123,27 @@ fn column_that_no_record_uses_is_an_error_with_its_near_match() {
     let (code, out, err) = study("cases.csv");
     assert_eq!((code, err.as_str()), (Some(0), ""), "{out}");
 }
+
+#[test]
+fn table_of_pandas_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let table = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/study_cases.parquet");
+    fs::copy(table, here.join("cases.parquet")).unwrap();
+    fs::write(here.join("torn.parquet"), b"PAR1 no more").unwrap();
+    fs::write(here.join("sample.cif"), "&RESULT W2 %W% -UNIT kN\n&SET N = %(note)\n").unwrap();
+    let (code, _, err) = windlass(here, &["study", "cases.parquet", "sample.cif", "--out", "S"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let table = rows(&here.join("S/results.csv"));
+    let column = |name: &str| {
+        let at = table[0].iter().position(|head| head == name).unwrap_or_else(|| panic!("{name}"));
+        [table[1][at].as_str(), table[2][at].as_str()]
+    };
+    // tests/data/study_cases.py
+    assert_eq!(column("case"), ["light", "heavy"]);
+    assert_eq!(column("W2 (kN)"), ["100", "250.5"]);
+    assert_eq!((column("note"), column("member")), (["spring", "Spring"], ["1", "2"]));
+    let (code, _, err) = windlass(here, &["study", "torn.parquet", "sample.cif", "--out", "T"]);
+    assert!(code == Some(2) && err.starts_with("windlass: torn.parquet: it is no Parquet: "), "{err}");
+    assert!(!here.join("T").exists());
+}
