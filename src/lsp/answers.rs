@@ -92,6 +92,9 @@ pub fn diagnostics(analysis: &Analysis, source: usize, documents: &Documents, en
     list
 }
 
+/// A file, its text, and the places of a name in it.
+type NamePlaces<'a> = (&'a Path, &'a str, Vec<Occurrence>);
+
 /// A record at a place of a text.
 struct RecordAt {
     /// Its first byte.
@@ -336,7 +339,7 @@ impl Answers<'_> {
     }
 
     /// Every place of the name at a byte, and its kind; its definition is among them.
-    fn places(&self, byte: usize) -> Option<(NameKind, Vec<(&Path, &str, Vec<Occurrence>)>)> {
+    fn places(&self, byte: usize) -> Option<(NameKind, Vec<NamePlaces<'_>>)> {
         let texts = self.texts();
         let (_, defined) = self.find_definition(&texts, byte)?;
         let means = |one: &Occurrence| one.name == defined.name && one.kind.may_be(defined.kind);
