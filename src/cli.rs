@@ -162,15 +162,6 @@ pub enum Subcommand {
 /// The words that stand for a command.
 const COMMANDS: [&str; 9] = ["run", "check", "study", "verify", "open", "report", "fmt", "lsp", "manual"];
 
-/// Whatever follows a command that this version does not have.
-#[derive(clap::Args, Debug)]
-#[command(disable_help_flag = true)]
-pub struct Words {
-    /// The words.
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
-    pub words: Vec<String>,
-}
-
 impl Subcommand {
     fn name(&self) -> &'static str {
         match self {
@@ -191,8 +182,6 @@ impl Subcommand {
 /// Why the command line starts no job.
 #[derive(Debug, thiserror::Error)]
 enum UsageError {
-    #[error("{name} is not in this version{}", namesake(name))]
-    CommandToCome { name: &'static str },
     #[error("check comes first, and takes a script: windlass check --compat model.cif")]
     CheckFirst,
     #[error("verify comes first: windlass verify --list")]
@@ -351,8 +340,7 @@ fn job(cli: Cli) -> Result<JobArgs, UsageError> {
         "study" => Err(UsageError::StudyFirst),
         "fmt" => Err(UsageError::FormatFirst),
         "lsp" => Err(UsageError::ServerFirst),
-        "report" => Err(UsageError::ReportFirst),
-        _ => Err(UsageError::CommandToCome { name }),
+        _ => Err(UsageError::ReportFirst),
     }
 }
 
