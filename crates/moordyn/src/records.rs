@@ -297,6 +297,10 @@ impl Writer<'_> {
                     text,
                     "expected 0; INMODEL -MOORDYN FILE -STATIC reads the deck for statics without current",
                 );
+            } else if acts && name == "CdA" {
+                let text = format!("CdA of the free point {} is left out: a current does not push it", point.id.value);
+                let warning = Diagnostic::warning(text, given.span);
+                self.out.notes.push(*warning.help("the equilibrium is that of the deck in still water alone"));
             }
         }
         let weight = self.weight(point.mass.value);

@@ -99,6 +99,22 @@ fn deck_errors_are_at_their_words() {
 }
 
 #[test]
+fn drag_area_that_a_static_deck_leaves_out_is_warned_of_at_its_word() {
+    let good = std::fs::read_to_string(format!("{FOLDER}/chain_polyester_clump.txt")).unwrap();
+    let deck = good.replacen("8000   1.0  0  0", "8000   1.0  3  0", 1);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deck.txt");
+    std::fs::write(&path, &deck).unwrap();
+    let (mut session, _screen, _folder) = common::session();
+    session.open("records", format!("INMODEL -MOORDYN \"{}\" -STATIC\n", path.display()));
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let said = session.reports.iter().find(|r| r.message.contains("CdA of the free point 2 is left out"));
+    let span = said.unwrap_or_else(|| panic!("{:?}", session.reports)).span.unwrap();
+    assert_eq!(&deck[span.start as usize..span.end as usize], "3");
+}
+
+#[test]
 fn static_without_a_moordyn_deck_is_refused() {
     let (mut session, _screen, _folder) = common::session();
     session.open("records", "INMODEL -STATIC\n");
