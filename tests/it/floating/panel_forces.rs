@@ -366,10 +366,10 @@ fn harmonic(times: &[f64], values: &[f64], w: f64) -> Complex<f64> {
 
 #[test]
 fn radiation_of_other_barge_acts_in_frequency_and_time_alike() {
-    // waves of 0.2 m height: a run has the heave of the linear equations within a tenth of what the interaction makes of it. The added mass of
-    // so few panels and frequencies is not quite that of the damping: 2 %
-    let frequencies: Vec<String> = (2..=17).map(|i| (TAU / (0.1 * f64::from(i))).to_string()).collect();
-    let asked = format!("-PERIOD {} -PANEL 4", frequencies.join(" "));
+    // waves of 0.2 m height: a run has the heave of the linear equations within 1 %. Panels of 4 m and frequencies up to 1.7 rad/s leave
+    // 2.3 %, by the radiation at higher frequencies that the memory is without
+    let frequencies: Vec<String> = (2..=21).map(|i| (TAU / (0.1 * f64::from(i))).to_string()).collect();
+    let asked = format!("-PERIOD {} -PANEL 2.5", frequencies.join(" "));
     let period = TAU / 0.8;
     let behind = format!("&ENV SEA -SEA REGULAR 240 0.2 {period} -TIME 260 0.1 -RAMP 60\nTDOM\n");
     let (session, text) = two_barges(0.0, &asked, &behind);
@@ -393,7 +393,7 @@ fn radiation_of_other_barge_acts_in_frequency_and_time_alike() {
         let values = history.series(history.layout.body(body) + 2);
         let made = harmonic(&times[from..], &values[from..], frequency) / 0.1;
         let off = (made - together[at]).norm() / largest;
-        assert!(off < 0.04, "body {body}: {made} for {} and {}", together[at], apart[at]);
+        assert!(off < 0.01, "body {body}: {made} for {} and {}", together[at], apart[at]);
         differ = differ.max((apart[at] - together[at]).norm() / largest);
     }
     assert!(differ > 0.35, "{differ}");
