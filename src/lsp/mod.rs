@@ -1,6 +1,6 @@
 //! `windlass lsp`: the language server for editors, on standard input and output.
 //!
-//! One thread reads messages, one answers them, and one checks what is being edited ([`check`]). A check that is overtaken by a change is
+//! One thread reads messages, one answers them, and one checks what is being edited (module `check`). A check that is overtaken by a change is
 //! abandoned, so that answers never wait for it; what it would have said of an old version is not said. A request that was cancelled before
 //! it was answered is answered as such.
 //!
