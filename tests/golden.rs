@@ -20,13 +20,14 @@ fn main() {
     let is_run = |p: &Path| p.extension().is_some_and(|e| e == "cif" || (e == "dat" && !p.ends_with("he01.dat")));
     scripts.retain(|p| is_run(p));
     scripts.sort();
-    let trials = scripts
+    let mut trials: Vec<Trial> = scripts
         .into_iter()
         .map(|script| {
             let name = script.file_stem().unwrap().to_string_lossy().into_owned();
             Trial::test(name.clone(), move || check(&script, &name))
         })
         .collect();
+    trials.push(Trial::test("study", check_study));
     libtest_mimic::run(&arguments, trials).exit();
 }
 
@@ -67,13 +68,40 @@ fn check(script: &Path, name: &str) -> Result<(), Failed> {
         };
         text.push_str(&format!("==== {title}\n{shown}"));
     }
+    hold(&text, name)
+}
+
+/// The small study of scripts/study: what it prints, and its tables without the seconds that cases took.
+fn check_study() -> Result<(), Failed> {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("S");
+    let words = ["study", "scripts/study/tanker.toml", "scripts/study/tanker.cif", "--out"];
+    let run = Command::new(env!("CARGO_BIN_EXE_windlass")).args(words).arg(&out).output()?;
+    let said = String::from_utf8(run.stdout)?.replace(&*out.to_string_lossy(), "OUT");
+    let mut text = format!("exit code {}\n{said}", run.status.code().unwrap_or(-1));
+    for name in ["results.csv", "lines.csv", "ensembles.csv"] {
+        let mut reader = csv::Reader::from_path(out.join(name))?;
+        let seconds = reader.headers()?.iter().position(|head| head == "seconds (s)");
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for record in std::iter::once(Ok(reader.headers()?.clone())).chain(reader.records()) {
+            let record = record?;
+            writer
+                .write_record(record.iter().enumerate().filter(|(at, _)| Some(*at) != seconds).map(|(_, cell)| cell))?;
+        }
+        text.push_str(&format!("==== {name}\n{}", String::from_utf8(writer.into_inner()?)?));
+    }
+    hold(&text, "study")
+}
+
+/// Compares with what is stored, or stores it.
+fn hold(text: &str, name: &str) -> Result<(), Failed> {
     let golden = Path::new("tests/golden").join(format!("{name}.txt"));
     if std::env::var_os("BLESS").is_some() {
         fs::write(&golden, text)?;
         return Ok(());
     }
     let want = fs::read_to_string(&golden).map_err(|e| format!("{}: {e}; BLESS=1 makes it", golden.display()))?;
-    compare(&want, &text)
+    compare(&want, text)
 }
 
 /// A CSV file with `small` for a residual of at most 1e-9 of the fairlead tension: below that its digits are rounding.

@@ -11,6 +11,7 @@ use crate::commands::model::shapes::SectionShape;
 use crate::commands::output::buildg::Building;
 use crate::commands::solve::frequency::FrequencyMenu;
 use crate::commands::solve::hstatics::HydrostaticsMenu;
+use crate::commands::solve::line_loss::{IntactRun, LossInstant};
 use crate::commands::undo::UndoStates;
 use crate::commands::verdict::Verdict;
 use crate::report::disposition::Disposition;
@@ -371,6 +372,10 @@ pub struct Job {
     pub kept_tables: Option<Vec<KeptTable>>,
     /// Named results and rows of lines, for the record of a study's case.
     pub kept: Kept,
+    /// The intact case that a transient case of a study follows.
+    pub intact_run: Option<IntactRun>,
+    /// When the last run lost lines by `-LOSE`.
+    pub line_loss: Option<LossInstant>,
     /// The records that were executed.
     pub journal: Journal,
     /// The page that is written as the job goes, where one was asked for.
@@ -429,6 +434,8 @@ impl Job {
             verdict: Verdict::default(),
             kept_tables: None,
             kept: Kept::default(),
+            intact_run: None,
+            line_loss: None,
             journal: Journal::default(),
             page: None,
             last_tables: Vec::new(),

@@ -49,6 +49,7 @@ use output::{
 use post::{code_check, frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::{existing, within_check};
 use settings::{accepted, device, history, name_list, parameter, units};
+pub(crate) use solve::line_loss::{IntactRun, check_damaged_start};
 pub use solve::lines::ADDED as COLUMNS_OF_LINES;
 pub use solve::stored::{StoredError, file_of_run, find_stored};
 pub(crate) use solve::summary::count;

@@ -2,7 +2,7 @@
 
 use super::tables::{input_column, number_column, text_column};
 use crate::report::stored::StoredColumn;
-use windlass_signal::ensemble::{GumbelFit, SeedExtremes, seeds_for_scatter};
+use windlass_signal::ensemble::{GumbelFit, SeedExtremes, seeds_for_scatter, seeds_for_scatter_of_minima};
 use windlass_study::ensemble::{Ensemble, EnsembleResult, ensembles, is_seed_column};
 use windlass_study::record::{CaseRecord, CaseStatus};
 use windlass_study::store::Study;
@@ -17,7 +17,7 @@ const FRACTILES: [(&str, f64); 4] = [("mpm", 0.367_879_441_171_442_3), ("p50", 0
 /// Numbers of a row that need no fit.
 const COUNTS: [&str; 5] = ["cases", "failed", "overloaded", "missing", "repeated"];
 /// Numbers of the sample.
-const SAMPLE: [&str; 4] = ["count", "mean", "standard_deviation", "largest"];
+const SAMPLE: [&str; 5] = ["count", "mean", "standard_deviation", "largest", "least"];
 
 /// A row of the table.
 struct Row<'a> {
@@ -47,13 +47,17 @@ fn heads() -> Vec<String> {
     heads
 }
 
-/// Location, scale and fractiles with their intervals.
-fn fitted(values: &[f64], fit: GumbelFit) -> Result<Vec<f64>, String> {
-    let extremes = SeedExtremes::fit(values, fit).map_err(|error| error.to_string())?;
-    let mut numbers = vec![extremes.gumbel.location, extremes.gumbel.scale];
+/// Location, scale and fractiles with their intervals. The minima of storms are fitted as the maxima of their negatives.
+fn fitted(values: &[f64], is_least: bool, fit: GumbelFit) -> Result<Vec<f64>, String> {
+    let turned = |value: f64| if is_least { -value } else { value };
+    let maxima: Vec<f64> = values.iter().copied().map(turned).collect();
+    let extremes = SeedExtremes::fit(&maxima, fit).map_err(|error| error.to_string())?;
+    let mut numbers = vec![turned(extremes.gumbel.location), extremes.gumbel.scale];
     for (_, probability) in FRACTILES {
         let found = extremes.fractile(probability, LEVEL).map_err(|error| error.to_string())?;
-        numbers.extend([found.value, found.interval.0, found.interval.1]);
+        let (low, high) = found.interval;
+        let (low, high) = if is_least { (-high, -low) } else { (low, high) };
+        numbers.extend([turned(found.value), low, high]);
     }
     if numbers.iter().any(|number| !number.is_finite()) {
         return Err("the fit is beyond the range of numbers".into());
@@ -61,18 +65,19 @@ fn fitted(values: &[f64], fit: GumbelFit) -> Result<Vec<f64>, String> {
     Ok(numbers)
 }
 
-/// Mean, standard deviation (n - 1; none of one value) and largest of a sample.
-fn sample(values: &[f64]) -> [Option<f64>; 3] {
+/// Mean, standard deviation (n - 1; none of one value), largest and least of a sample.
+fn sample(values: &[f64]) -> [Option<f64>; 4] {
     let n = values.len() as f64;
-    let Some(largest) = values.iter().copied().reduce(f64::max) else { return [None; 3] };
+    let Some(largest) = values.iter().copied().reduce(f64::max) else { return [None; 4] };
+    let least = values.iter().copied().fold(largest, f64::min);
     let mean = largest + values.iter().map(|x| x - largest).sum::<f64>() / n;
     let deviation =
         (values.len() > 1).then(|| (values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt());
-    [Some(mean), deviation, Some(largest)].map(|number| number.filter(|number| number.is_finite()))
+    [Some(mean), deviation, Some(largest), Some(least)].map(|number| number.filter(|number| number.is_finite()))
 }
 
 fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
-    let [mean, deviation, largest] = sample(&result.values);
+    let [mean, deviation, largest, least] = sample(&result.values);
     let whole = |count: usize| Some(count as f64);
     let mut numbers = vec![
         whole(ensemble.cases.len()),
@@ -84,10 +89,11 @@ fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
         mean,
         deviation,
         largest,
+        least,
     ];
     let mut reason = None;
     for (name, fit) in [("moments", GumbelFit::Moments), ("likelihood", GumbelFit::Likelihood)] {
-        match fitted(&result.values, fit) {
+        match fitted(&result.values, result.is_least, fit) {
             Ok(found) => numbers.extend(found.into_iter().map(Some)),
             Err(error) => {
                 numbers.extend(std::iter::repeat_n(None, 2 + 3 * FRACTILES.len()));
@@ -95,8 +101,9 @@ fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
             }
         }
     }
+    let seeds = if result.is_least { seeds_for_scatter_of_minima } else { seeds_for_scatter };
     let seeds = match (mean, deviation) {
-        (Some(mean), Some(deviation)) if reason.is_none() => seeds_for_scatter(deviation / mean, SCATTER, LEVEL)
+        (Some(mean), Some(deviation)) if reason.is_none() => seeds(deviation / mean, SCATTER, LEVEL)
             .map_err(|error| reason = Some(format!("no seeds_for_5_percent: {error}")))
             .ok(),
         _ => None,
@@ -130,6 +137,8 @@ pub(super) fn columns(study: &Study) -> Vec<StoredColumn> {
         columns.push(input_column(input, rows.iter().map(of).collect()));
     }
     columns.push(text_column("result", rows.iter().map(|row| Some(row.result.name.clone())).collect()));
+    let extreme = |row: &Row<'_>| Some(if row.result.is_least { "least" } else { "largest" }.to_owned());
+    columns.push(text_column("extreme", rows.iter().map(extreme).collect()));
     let unit = |row: &Row<'_>| Some(row.result.unit.clone()).filter(|unit| !unit.is_empty());
     columns.push(text_column("unit", rows.iter().map(unit).collect()));
     for (at, head) in heads().iter().enumerate() {

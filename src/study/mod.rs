@@ -3,6 +3,7 @@
 mod case_process;
 mod ensembles;
 mod parquet_table;
+mod peaks;
 pub mod report;
 mod tables;
 mod variables;
@@ -32,7 +33,7 @@ const MOST_NAMED: usize = 10;
 /// What stands at the end of `windlass study --help`.
 pub const HELP: &str = "\
 Each row of TABLE is a case: its columns become variables of MODEL (%HS%, %HEADING%), the column case names it, and %SEED% is made
-of --seed, the name and the column member. TABLE is a CSV or Parquet file, or a TOML file of lists that are multiplied. MODEL keeps results by
+of --seed, the name and the column member; lost, condition and stiffness say which lines are lost and how stiff fibre ropes are. TABLE is a CSV or Parquet file, or a TOML file of lists that are multiplied. MODEL keeps results by
 &RESULT, by -RESULT of STATISTIC and EXTREMES, and by CODE_CHECK; they become columns of DIR/results.csv and results.parquet, and
 rows of lines.csv. The same command again goes on where the study was stopped, and runs again what has changed.
 
@@ -295,8 +296,18 @@ fn rerun(
         complain(&format!("{} has no finished case {name}{}", folder.display(), near.unwrap_or_default()));
         return StudyExit::Usage;
     };
-    let (columns, values): (Vec<String>, Vec<String>) = record.values.iter().cloned().unzip();
-    let case = Case { name: record.case.clone(), values, seed: record.seed };
+    let (case, columns) = match Case::from_record(record) {
+        Ok(made) => made,
+        Err(error) => {
+            complain(&format!("{name}: {error}"));
+            return StudyExit::Failed;
+        }
+    };
+    let intact = case.intact.as_ref().and_then(|intact| study.records.iter().find(|record| record.case == *intact));
+    if let Some(intact) = intact.filter(|intact| intact.status == CaseStatus::Failed) {
+        complain(&format!("{name} follows its intact case {}, which has failed", intact.case));
+        return StudyExit::Failed;
+    }
     let place = folder.join("rerun").join(&record.case);
     let fresh = SystemFiles.remove_folder(&place).and_then(|()| SystemFiles.make_folder(&place));
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -304,7 +315,7 @@ fn rerun(
     let processes = Processes::new(&script, cores, program);
     let (processes, made) = match (fresh, processes) {
         (Ok(()), Ok(processes)) => {
-            let made = processes.run(&case, &columns, &place);
+            let made = processes.run(&case, &columns, &place, intact);
             (processes, made)
         }
         (Err(error), _) | (_, Err(error)) => {

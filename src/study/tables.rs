@@ -123,11 +123,12 @@ fn result_columns(study: &Study) -> Vec<StoredColumn> {
 /// A number of a row of a line, with its name and unit.
 type LineNumber = (&'static str, &'static str, fn(&LineRow) -> Option<f64>);
 
-const LINE_NUMBERS: [LineNumber; 22] = [
+const LINE_NUMBERS: [LineNumber; 24] = [
     ("mean_tension", "N", |l| l.mean_tension),
     ("dynamic_tension", "N", |l| l.dynamic_tension),
     ("max_tension", "N", |l| l.max_tension),
     ("largest_tension", "N", |l| l.largest_tension),
+    ("least_tension", "N", |l| l.least_tension),
     ("maxima", "", |l| l.maxima.map(|n| n as f64)),
     ("mpm", "N", |l| l.mpm),
     ("mpm_low", "N", |l| l.mpm_low),
@@ -146,6 +147,7 @@ const LINE_NUMBERS: [LineNumber; 22] = [
     ("annual_damage", "1/year", |l| l.annual_damage),
     ("grounded_length", "m", |l| l.grounded_length),
     ("offset", "m", |l| l.offset),
+    ("loss_time", "s", |l| l.loss.as_ref().map(|loss| loss.time)),
 ];
 
 /// Columns of the rows of lines; none where no case has one.
@@ -163,6 +165,7 @@ fn line_columns(study: &Study) -> Vec<StoredColumn> {
         text_column("analysis", texts(&|_, l| Some(l.analysis?.word().to_owned()))),
         text_column("condition", texts(&|_, l| Some(l.condition.word().to_owned()))),
         text_column("lost", texts(&|_, l| Some(l.lost.join(" ")).filter(|t| !t.is_empty()))),
+        text_column("lost_at", texts(&|_, l| Some(l.loss.as_ref()?.reason.clone()))),
         text_column("code", texts(&|_, l| l.code.clone())),
         text_column("verdict", texts(&|_, l| Some(l.verdict?.word().to_owned()))),
         text_column("anchor_verdict", texts(&|_, l| Some(l.anchor_verdict?.word().to_owned()))),

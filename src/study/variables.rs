@@ -5,6 +5,8 @@
 use crate::report::files::read_regular;
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
+use windlass_study::lost::{CONDITION, PROBABILITY};
+use windlass_study::stiffness::STIFFNESS;
 use windlass_study::table::{CASE, CaseTable, MEMBER, SEED, SEED_OF};
 
 /// Longest script that is searched (bytes).
@@ -77,7 +79,7 @@ fn collect_names(line: &str, names: &mut BTreeSet<String>) -> Option<()> {
 
 /// What is wrong with a table that has a column which its script does not use, and which names no case; none where all are used.
 pub(super) fn complaint(table: &CaseTable, file: &str, model: &Path) -> Option<String> {
-    let own = [CASE, MEMBER, SEED, SEED_OF].map(str::to_owned);
+    let own = [CASE, MEMBER, SEED, SEED_OF, CONDITION, PROBABILITY, STIFFNESS].map(str::to_owned);
     let is_known = |column: &str, list: &[String]| list.iter().any(|known| known.eq_ignore_ascii_case(column));
     let used = names_used(model)?;
     let unused = table.columns.iter().find(|column| {

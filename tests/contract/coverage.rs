@@ -6,7 +6,17 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-const SOURCES: [&str; 6] = ["MOSES-FLEX", "MOSES-REF", "AQWA-CONN", "AQWA-TETHER", "AQWA-REF", "MOORDYN-2"];
+const SOURCES: [&str; 9] = [
+    "MOSES-FLEX",
+    "MOSES-REF",
+    "AQWA-CONN",
+    "AQWA-TETHER",
+    "AQWA-REF",
+    "MOORDYN-2",
+    "API-RP-2SK",
+    "API-RP-2SM",
+    "GUMBEL-1958",
+];
 const STATES: [&str; 3] = ["shown", "unshown", "refused"];
 /// Where the number of a test may come from.
 const MAKERS: [&str; 6] = ["closed form", "listing", "published case", "other program", "refusal", "rule"];
@@ -28,7 +38,8 @@ fn exists(test: &str, files: &[(String, String)]) -> bool {
     match file {
         "golden" => {
             Path::new(&format!("tests/golden/{name}.txt")).exists()
-                && ["cif", "dat"].iter().any(|end| Path::new(&format!("scripts/{name}.{end}")).exists())
+                && (name == "study"
+                    || ["cif", "dat"].iter().any(|end| Path::new(&format!("scripts/{name}.{end}")).exists()))
         }
         "errors" => Path::new(&format!("tests/errors/{name}.cif")).exists(),
         _ => files.iter().any(|(stem, text)| {

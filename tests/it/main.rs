@@ -33,6 +33,7 @@ mod program {
     mod script_check;
     mod stored_run;
     mod study;
+    mod study_losses;
     mod study_tables;
     mod table_vary;
     mod terminal;

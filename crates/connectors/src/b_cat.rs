@@ -19,7 +19,7 @@ pub static B_CAT: ClassKind =
 const LISTS: &[&[OptionSpec]] = &[
     &[o::LEN, o::TYPE, o::DEPANCHOR, o::REFINE, o::IG_STIFF, o::SEND, o::X_PY],
     &o::SEGMENT,
-    &[o::TAB_LIM, o::TABLE, o::CLUMP],
+    &[o::EA_BOUNDS, o::TAB_LIM, o::TABLE, o::CLUMP],
     &o::DIAMETERS,
     &[o::FRICTION, o::SLOPE],
     &m::LINE_OPTIONS,

@@ -21,7 +21,7 @@ pub static H_CAT: ClassKind =
 const LISTS: &[&[OptionSpec]] = &[
     &[o::LEN, o::TYPE, o::REFINE, o::IG_STIFF, o::SEND, o::X_PY],
     &o::SEGMENT,
-    &[o::TAB_LIM, o::CLUMP],
+    &[o::EA_BOUNDS, o::TAB_LIM, o::CLUMP],
     &o::DIAMETERS,
     &m::LINE_OPTIONS,
     &devices::OPTIONS,

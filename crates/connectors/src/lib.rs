@@ -64,7 +64,7 @@ mod zero_law;
 mod zero_length;
 
 pub use member_section::{SECTIONS, SHAPE_SPEC, SectionKind, check_sections, class_specs, member_class};
-pub use section::type_notices;
+pub use section::{has_rope_stiffness, type_notices};
 
 use std::sync::Arc;
 use windlass_base::diagnostic::Outcome;

@@ -332,6 +332,12 @@ impl ConnectorClass for LineClass {
     }
 
     fn element(&self, connection: &Connection) -> Result<Box<dyn ConnectorElement>, ClassError> {
+        if self.sections.iter().any(|section| section.needs_dynamics) {
+            let text = "a quasi-static line has no dynamic stiffness, which &PARAMETER -STIFFNESS or the column stiffness of a study asks for";
+            return Err(
+                ClassError::new(text).help("&CONNECTOR -DYNAMICS makes it a dynamic line; LOWER and UPPER act on both")
+            );
+        }
         if self.devices.is_none() {
             return self.line(&connection.placement, connection.surroundings)?.element();
         }

@@ -197,6 +197,15 @@ pub const B_TENSION: OptionSpec = OptionSpec::new(
     "breaking tension of the segment",
 )
 .default("area times ultimate stress");
+/// `-EA_BOUNDS`.
+pub const EA_BOUNDS: OptionSpec = OptionSpec::ours(
+    "-EA_BOUNDS",
+    &[
+        number("EAL", Dim::Force, "least axial stiffness: of a new rope, pulled slowly").positive(),
+        number("EAU", Dim::Force, "largest axial stiffness: of a rope that storms have worked").positive(),
+    ],
+    "bounds of the axial stiffness of a fibre rope; &PARAMETER -STIFFNESS takes one, EAL without",
+);
 /// `-TAB_LIM`.
 pub const TAB_LIM: OptionSpec = OptionSpec::new(
     "-TAB_LIM",

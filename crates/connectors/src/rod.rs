@@ -25,7 +25,7 @@ const ONE_BENDING: &str = "a rod has one bending stiffness in all directions, -E
 const ROD_LISTS: &[&[OptionSpec]] = &[
     &[o::LEN, REFINE, o::IG_STIFF],
     &o::SEGMENT,
-    &[o::CLUMP],
+    &[o::EA_BOUNDS, o::CLUMP],
     &o::DIAMETERS,
     &[
         o::FRICTION,

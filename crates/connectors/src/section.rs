@@ -17,7 +17,7 @@ use windlass_base::units::{Dim, UnitSystem, eight_figures};
 use windlass_base::values::{Args, Given};
 use windlass_language::select::{Owner, choose};
 use windlass_language::spec::OptionSpec;
-use windlass_model::{ClassRecord, FatigueSegment, Surroundings};
+use windlass_model::{ClassRecord, FatigueSegment, RopeStiffness, Surroundings};
 
 /// Density against which a specific gravity is given: fresh water (kg/m3).
 const FRESH_WATER: f64 = 1000.0;
@@ -36,6 +36,7 @@ pub const CATENARY_IDLE: &[(OptionSpec, &str)] = &[
     (m::CA, DYNAMICS),
     (m::AX_DAMPING, DYNAMICS),
     (m::SEABED, DYNAMICS),
+    (m::ROPE, DYNAMICS),
 ];
 
 /// The same of a hanging catenary, whose weight is that in air.
@@ -81,6 +82,8 @@ pub struct LineSection {
     pub of_type: Option<TypeProperties>,
     /// Whether its record gives no weight: it has that of a solid bar.
     pub is_bar: bool,
+    /// Whether it is a fibre rope that is to have its dynamic stiffness, which a quasi-static line has not.
+    pub needs_dynamics: bool,
 }
 
 /// What a section of the library has beside weight, stiffness and strength.
@@ -217,6 +220,7 @@ impl LineSection {
             .or(from_type(|t, d| t.mass.evaluate(d)).map(|mass| mass * record.defaults.gravity))
             .unwrap_or(solid_weight(material.density));
         let ea = number(&o::EMODULUS).map(|e| e * area).or(from_type(|t, d| t.ea.evaluate(d)));
+        let ea = bounded_stiffness(record)?.or(ea);
         let breaking =
             number(&o::B_TENSION).or(ultimate.map(|u| u * area)).or(from_type(|t, d| t.breaking.evaluate(d)));
         // a displacement given stands for the type's, else it would count twice
@@ -243,6 +247,8 @@ impl LineSection {
             of_type,
             is_bar: of_type.is_none()
                 && [o::WTPLEN, o::DENSITY, o::SPGRAVITY].iter().all(|option| args.option_if_declared(option).is_none()),
+            needs_dynamics: record.defaults.rope_stiffness == Some(RopeStiffness::Dynamic)
+                && has_rope_stiffness(record),
         })
     }
 
@@ -268,6 +274,45 @@ impl LineSection {
     pub fn in_air(&self) -> f64 {
         self.weight
     }
+}
+
+/// The axial stiffness (N) that `-EA_BOUNDS` of a record and `&PARAMETER -STIFFNESS` give a fibre rope; none where it has no bounds.
+///
+/// # Errors
+/// Bounds in the wrong order; a rope without the largest or the dynamic stiffness that is asked for.
+fn bounded_stiffness(record: &ClassRecord) -> Outcome<Option<f64>> {
+    let args = &record.args;
+    let (bounds, rope) = (args.option_if_declared(&o::EA_BOUNDS), args.option_if_declared(&m::ROPE));
+    let chosen = record.defaults.rope_stiffness;
+    let Some(given) = bounds else {
+        return match (chosen, rope) {
+            (Some(RopeStiffness::Upper), Some(given)) => {
+                Err(Diagnostic::error("the largest stiffness of this rope is not given", given.span)
+                    .help("-EA_BOUNDS EAL EAU gives it; &PARAMETER -STIFFNESS UPPER, or a column stiffness of a study, asks for it"))
+            }
+            _ => Ok(None),
+        };
+    };
+    let [lower, upper] =
+        const { o::EA_BOUNDS.numbers(["EAL", "EAU"]) }.map(|key| given.number(key).unwrap_or(f64::NAN));
+    if upper < lower {
+        let text = format!("EAU is below EAL of {}", given.name());
+        return Err(Diagnostic::error(text, given.position(const { o::EA_BOUNDS.number("EAU") })));
+    }
+    if let Some(other) = [o::EMODULUS, m::EA, m::STRETCH].iter().find_map(|option| args.option_if_declared(option)) {
+        return Err(Diagnostic::error("axial stiffness is given twice", other.span).other(given.span, "and here"));
+    }
+    if (chosen, rope) == (Some(RopeStiffness::Dynamic), None) {
+        return Err(Diagnostic::error("the dynamic stiffness of this rope is not given", given.span).help(
+            "-ROPE EAD B TAU gives it; &PARAMETER -STIFFNESS DYNAMIC, or a column stiffness of a study, asks for it",
+        ));
+    }
+    Ok(Some(if chosen == Some(RopeStiffness::Upper) { upper } else { lower }))
+}
+
+/// Whether a record is of a fibre rope whose stiffness `&PARAMETER -STIFFNESS` chooses.
+pub fn has_rope_stiffness(record: &ClassRecord) -> bool {
+    [o::EA_BOUNDS, m::ROPE].iter().any(|option| record.args.option_if_declared(option).is_some())
 }
 
 /// A value to four figures, with its unit.

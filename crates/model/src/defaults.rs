@@ -2,6 +2,7 @@
 //!
 //! Source: [W-DEFAULTS].
 
+use windlass_base::choices;
 use windlass_base::geometry::Place;
 use windlass_base::units::{METRES_PER_INCH, NEWTONS_PER_KIP, STANDARD_GRAVITY};
 use windlass_base::values::Given;
@@ -49,7 +50,19 @@ pub struct WaveDefaults {
     pub probability: Option<Given>,
 }
 
-/// Everything `&DEFAULT` holds.
+choices! {
+    /// The axial stiffness of a fibre rope, which grows with how fast it is pulled and with how it has been pulled before.
+    pub enum RopeStiffness {
+        /// The least, of a rope that is new and pulled slowly: offsets are judged by it.
+        Lower = "LOWER",
+        /// The largest, of a rope that storms have worked: tensions are judged by it.
+        Upper = "UPPER",
+        /// By how fast it is pulled and by its mean tension, of dynamic lines.
+        Dynamic = "DYNAMIC",
+    }
+}
+
+/// Everything `&DEFAULT` holds, and the stiffness of fibre ropes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Defaults {
     /// Material.
@@ -68,6 +81,9 @@ pub struct Defaults {
     pub coordinates: Coordinates,
     /// Local z of beams, in the part; the second where a beam runs along the first.
     pub beam_direction: [[f64; 3]; 2],
+    /// Stiffness of fibre ropes of classes defined from then on (`&PARAMETER -STIFFNESS`); none: dynamic where a rope has that, else the
+    /// least.
+    pub rope_stiffness: Option<RopeStiffness>,
 }
 
 impl Default for Defaults {
@@ -89,6 +105,7 @@ impl Default for Defaults {
             ramp: 0.0,
             coordinates: Coordinates::Rectangular,
             beam_direction: [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]],
+            rope_stiffness: None,
         }
     }
 }

@@ -65,7 +65,7 @@ pub use curve::{Curve, CurveKind};
 pub use database::{
     Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, Qtf,
 };
-pub use defaults::{Coordinates, DefaultMaterial, Defaults, WaveDefaults};
+pub use defaults::{Coordinates, DefaultMaterial, Defaults, RopeStiffness, WaveDefaults};
 pub use draft_mark::DraftMark;
 pub use element::{
     AnchoredConnector, AnchoredResponse, Connection, ConnectorCategory, ConnectorElement, ConnectorResponse,

@@ -159,18 +159,31 @@ fn student_t(count: usize, level: f64) -> Result<f64, SeriesError> {
 /// # Errors
 /// A share, level or coefficient out of range; more than [`MOST_SEEDS`].
 pub fn seeds_for_scatter(variation: f64, share: f64, level: f64) -> Result<usize, SeriesError> {
+    seeds_for_mode(variation, -EULER * 6f64.sqrt() / PI, share, level)
+}
+
+/// The same for the most probable minimum of minima, which lies as far above their mean as that of maxima lies below theirs.
+///
+/// # Errors
+/// As [`seeds_for_scatter`].
+pub fn seeds_for_scatter_of_minima(variation: f64, share: f64, level: f64) -> Result<usize, SeriesError> {
+    seeds_for_mode(variation, EULER * 6f64.sqrt() / PI, share, level)
+}
+
+/// Seeds until the interval of a mode that is so many deviations above the mean is within a share of it.
+fn seeds_for_mode(variation: f64, above: f64, share: f64, level: f64) -> Result<usize, SeriesError> {
     for (what, value) in [("the coefficient of variation", variation), ("the share", share)] {
         if !(value.is_finite() && value > 0.0) {
             return Err(SeriesError::Setting { what, expected: "greater than zero", value });
         }
     }
-    let k = -EULER * 6f64.sqrt() / PI;
-    let mode = 1.0 + k * variation;
+    let mode = 1.0 + above * variation;
     if mode <= 0.0 {
         let expected = "small enough that the most probable maximum is above zero";
         return Err(SeriesError::Setting { what: "the coefficient of variation", expected, value: variation });
     }
-    let half = |n: usize| Ok(student_t(n, level)? * variation / mode * (moments_variance(k) / n as f64).sqrt());
+    let spread = moments_variance(-above.abs());
+    let half = |n: usize| Ok(student_t(n, level)? * variation / mode * (spread / n as f64).sqrt());
     // the interval shrinks with every seed: doubled until it is narrow enough, then halved between
     let mut high = FEWEST_SEEDS;
     while half(high)? > share {
@@ -255,6 +268,9 @@ mod tests {
         assert_eq!(seeds_for_scatter(0.08, 0.033, 0.95), Ok(20));
         assert_eq!(seeds_for_scatter(0.001, 0.5, 0.95), Ok(FEWEST_SEEDS));
         assert!(seeds_for_scatter(0.5, 1e-9, 0.95).is_err() && seeds_for_scatter(3.0, 0.1, 0.95).is_err());
+        // minima: +-2.262 0.08 / (1 + 0.45 0.08) sqrt(0.70994 / 10) = 4.66 per cent; nine give 5.03
+        assert_eq!(seeds_for_scatter_of_minima(0.08, 0.0467, 0.95), Ok(10));
+        assert_eq!(seeds_for_scatter_of_minima(0.08, 0.0504, 0.95), Ok(9));
         assert!(seeds_for_scatter(0.0, 0.1, 0.95).is_err() && seeds_for_scatter(0.1, 0.1, 1.0).is_err());
     }
 

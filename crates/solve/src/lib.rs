@@ -34,6 +34,7 @@ pub mod excursion_tables;
 mod failure_reasons;
 pub mod film;
 pub mod frequency;
+pub mod line_loss;
 mod link;
 mod modes;
 pub mod offset;

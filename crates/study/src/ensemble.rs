@@ -1,7 +1,8 @@
-//! Ensembles: cases that differ in nothing but their seed, one maximum of a result each.
+//! Ensembles: cases that differ in nothing but their seed, one extreme of a result each.
 
 use crate::record::{CaseRecord, CaseStatus};
 use crate::table::{MEMBER, SEED, SEED_OF};
+use indexmap::IndexMap;
 use std::collections::{HashMap, HashSet};
 
 /// Cases of one row but for their seeds.
@@ -13,10 +14,10 @@ pub struct Ensemble<'a> {
     pub repeated: usize,
 }
 
-/// A result over the cases of an ensemble.
+/// A result over the cases of an ensemble, one extreme of each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EnsembleResult {
-    /// Its name.
+    /// Its name; of the tension of a segment `tension of LINE SEGMENT`.
     pub name: String,
     /// Its unit, that of the first case which kept it.
     pub unit: String,
@@ -24,6 +25,8 @@ pub struct EnsembleResult {
     pub values: Vec<f64>,
     /// How many cases have not failed and yet do not have it in this unit.
     pub missing: usize,
+    /// Whether they are the least of each storm, not the largest.
+    pub is_least: bool,
 }
 
 /// Whether a column has no other meaning than the seed of its case.
@@ -59,7 +62,8 @@ impl Ensemble<'_> {
         self.cases.iter().filter(|case| case.status == status).count()
     }
 
-    /// The results that its cases have kept, in the order of the scripts. Failed cases are left out: what they kept may be of half a run.
+    /// The results that its cases have kept, in the order of the scripts; behind them the largest and the least tension of each segment of
+    /// a line. Failed cases are left out: what they kept may be of half a run.
     pub fn results(&self) -> Vec<EnsembleResult> {
         let ended: Vec<_> = self.cases.iter().filter(|case| case.status != CaseStatus::Failed).collect();
         let mut made: Vec<EnsembleResult> = Vec::new();
@@ -73,8 +77,29 @@ impl Ensemble<'_> {
                     unit: result.unit.clone(),
                     values: vec![result.value],
                     missing: 0,
+                    is_least: result.is_least,
                 }),
             }
+        }
+        for is_least in [false, true] {
+            let mut tensions: IndexMap<(&str, Option<usize>), Vec<f64>> = IndexMap::new();
+            for case in &ended {
+                let mut seen: HashSet<(&str, Option<usize>)> = HashSet::new();
+                for row in &case.lines {
+                    let tension = if is_least { row.least_tension } else { row.largest_tension };
+                    // a script that checks twice has two rows of a segment, with one tension
+                    if let Some(tension) = tension.filter(|_| seen.insert((&row.line, row.segment))) {
+                        tensions.entry((&row.line, row.segment)).or_default().push(tension);
+                    }
+                }
+            }
+            made.extend(tensions.into_iter().map(|((line, segment), values)| EnsembleResult {
+                name: segment.map_or_else(|| format!("tension of {line}"), |n| format!("tension of {line} {n}")),
+                unit: "N".to_owned(),
+                values,
+                missing: 0,
+                is_least,
+            }));
         }
         for result in &mut made {
             result.missing = ended.len().saturating_sub(result.values.len());
@@ -86,7 +111,7 @@ impl Ensemble<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kept::KeptResult;
+    use crate::kept::{KeptResult, LineRow};
 
     fn case(
         name: &str,
@@ -100,17 +125,10 @@ mod tests {
             values: vec![("HS".into(), hs.into()), ("member".into(), member.into())],
             seed,
             status,
-            reason: String::new(),
             seconds: 1.0,
-            messages: Vec::new(),
-            title: String::new(),
-            units: None,
-            caveats: Vec::new(),
             results: kept.iter().filter_map(result).collect(),
-            lines: Vec::new(),
-            read: Vec::new(),
-            version: String::new(),
             start: 1,
+            ..CaseRecord::default()
         }
     }
 
@@ -132,6 +150,31 @@ mod tests {
         assert_eq!((results[0].name.as_str(), results[0].unit.as_str()), ("T", "kN"));
         assert_eq!((results[0].values.as_slice(), results[0].missing), (&[5.0, 6.0][..], 1));
         assert_eq!((results[1].values.as_slice(), results[1].missing), (&[1.0][..], 2));
+        assert_eq!(results.len(), 2);
         assert_eq!(found[1].cases[0].case, "b1");
+    }
+
+    #[test]
+    fn tensions_of_segments_are_results_once_a_case() {
+        let row = |segment, largest, least| LineRow {
+            line: "L1".into(),
+            segment: Some(segment),
+            largest_tension: Some(largest),
+            least_tension: least,
+            ..LineRow::default()
+        };
+        let mut records = [1, 2].map(|seed| case(&format!("a{seed}"), ("9", "1", seed), CaseStatus::Done, &[]));
+        records[0].lines = vec![row(1, 5.0, Some(1.0)), row(2, 4.0, None), row(1, 5.0, Some(1.0))];
+        records[1].lines = vec![row(1, 6.0, Some(0.5))];
+        let found = ensembles(&records)[0].results();
+        let found: Vec<_> = found.iter().map(|r| (r.name.as_str(), r.is_least, r.values.clone(), r.missing)).collect();
+        assert_eq!(
+            found,
+            [
+                ("tension of L1 1", false, vec![5.0, 6.0], 0),
+                ("tension of L1 2", false, vec![4.0], 1),
+                ("tension of L1 1", true, vec![1.0, 0.5], 0)
+            ]
+        );
     }
 }

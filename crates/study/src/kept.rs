@@ -33,6 +33,9 @@ pub struct KeptResult {
     pub value: f64,
     /// Its unit as text, empty of a pure number.
     pub unit: String,
+    /// Whether its small values matter: it is the least of a storm, as a clearance is, not the largest.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_least: bool,
 }
 
 impl KeptResult {
@@ -49,7 +52,20 @@ impl KeptResult {
         if !value.is_finite() {
             return Err(KeptError::NotFinite { name, value });
         }
-        Ok(KeptResult { name, value, unit: unit.into() })
+        Ok(KeptResult { name, value, unit: unit.into(), is_least: false })
+    }
+
+    /// The same as the least of a storm.
+    pub fn least(self) -> Self {
+        KeptResult { is_least: true, ..self }
+    }
+
+    /// Takes the value of another of its name and unit where that is the more extreme.
+    pub fn take_extreme(&mut self, other: &KeptResult) {
+        let is_more = if self.is_least { other.value < self.value } else { other.value > self.value };
+        if is_more && self.unit == other.unit {
+            self.value = other.value;
+        }
     }
 }
 
@@ -134,6 +150,17 @@ pub enum SeverityKind {
     Tension,
 }
 
+/// When a line of a transient case was lost.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LossTime {
+    /// Which of the instants of the case, from 1.
+    pub number: usize,
+    /// Time (s).
+    pub time: f64,
+    /// What is there in the intact case.
+    pub reason: String,
+}
+
 /// What a case says of a line, or of one of its segments. SI units; what was not computed is `None`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -148,6 +175,9 @@ pub struct LineRow {
     pub condition: MooringCondition,
     /// Names of the lines lost.
     pub lost: Vec<String>,
+    /// When they were lost, of a transient case.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub loss: Option<LossTime>,
     /// Mean tension (N).
     pub mean_tension: Option<f64>,
     /// Dynamic part of the characteristic tension: the characteristic value less the mean (N).
@@ -156,6 +186,8 @@ pub struct LineRow {
     pub max_tension: Option<f64>,
     /// Largest tension of the record (N); the characteristic one may be larger, or smaller.
     pub largest_tension: Option<f64>,
+    /// Least tension of the record (N).
+    pub least_tension: Option<f64>,
     /// Maxima or samples that the characteristic value is estimated from.
     pub maxima: Option<usize>,
     /// Most probable maximum of the tension (N).
@@ -206,6 +238,35 @@ impl LineRow {
     /// Line and segment as tables have them: `L1 2`, or `L1` of the line as a whole.
     pub fn label(&self) -> String {
         self.segment.map_or_else(|| self.line.clone(), |segment| format!("{} {segment}", self.line))
+    }
+
+    /// Takes the place of this row where another of its segment is nearer to its limit; of anchor, offset and length on the bottom the
+    /// worse of the two is kept.
+    pub fn take_severer(&mut self, mut other: LineRow) {
+        let order = |row: &LineRow| {
+            row.severity().map_or((std::cmp::Reverse(None), 0.0), |(kind, v)| (std::cmp::Reverse(Some(kind)), v))
+        };
+        let ((kind, value), (other_kind, other_value)) = (order(self), order(&other));
+        if other_kind.cmp(&kind).then(other_value.total_cmp(&value)).is_gt() {
+            std::mem::swap(self, &mut other);
+        }
+        let larger = |a: Option<f64>, b: Option<f64>| a.map_or(b, |a| Some(b.map_or(a, |b| a.max(b))));
+        let smaller = |a: Option<f64>, b: Option<f64>| a.map_or(b, |a| Some(b.map_or(a, |b| a.min(b))));
+        self.largest_tension = larger(self.largest_tension, other.largest_tension);
+        self.least_tension = smaller(self.least_tension, other.least_tension);
+        self.anchor_horizontal = larger(self.anchor_horizontal, other.anchor_horizontal);
+        self.anchor_vertical = larger(self.anchor_vertical, other.anchor_vertical);
+        self.uplift = self.uplift.max(other.uplift);
+        self.grounded_length = smaller(self.grounded_length, other.grounded_length);
+        self.offset = larger(self.offset, other.offset);
+        let is_worse = other.anchor_verdict > self.anchor_verdict
+            || (other.anchor_verdict == self.anchor_verdict && other.anchor_safety_factor < self.anchor_safety_factor);
+        if is_worse && other.anchor_verdict.is_some() {
+            self.anchor_capacity = other.anchor_capacity;
+            self.anchor_safety_factor = other.anchor_safety_factor;
+            self.anchor_required_factor = other.anchor_required_factor;
+            self.anchor_verdict = other.anchor_verdict;
+        }
     }
 
     /// How near the row is to its limit, and by what: of rows of one segment the largest governs. `None` without a tension.

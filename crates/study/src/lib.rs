@@ -19,8 +19,10 @@
 
 pub mod ensemble;
 pub mod kept;
+pub mod lost;
 pub mod record;
 pub mod runner;
 pub mod seeds;
+pub mod stiffness;
 pub mod store;
 pub mod table;

@@ -4,7 +4,7 @@ use crate::kept::{KeptResult, LineRow};
 use serde::{Deserialize, Serialize};
 
 /// How a case ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CaseStatus {
     /// Without an error.
@@ -12,6 +12,7 @@ pub enum CaseStatus {
     /// A tension was beyond its break.
     Overloaded,
     /// An error, or no answer at all.
+    #[default]
     Failed,
 }
 
@@ -37,8 +38,40 @@ pub struct FileRead {
     pub hash: String,
 }
 
-/// A finished case.
+/// A value at an instant of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Peak {
+    /// Time (s).
+    pub time: f64,
+    /// The value: a tension (N), an offset (m).
+    pub value: f64,
+    /// The stored instant before it (s), and the value there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub before: Option<(f64, f64)>,
+}
+
+/// When a line of an intact run pulls hardest, and when its body is farthest away.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinePeaks {
+    /// Name of the line.
+    pub line: String,
+    /// Maxima of its tension at the first end between crossings of the mean, largest first (N).
+    pub tension: Vec<Peak>,
+    /// Largest horizontal distance of the body at its first end from where the model has it (m).
+    pub offset: Option<Peak>,
+}
+
+/// The intact case that a transient one has followed.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FollowedCase {
+    /// Its name.
+    pub case: String,
+    /// Check sum of its peaks; `None` where it had failed.
+    pub sum: Option<String>,
+}
+
+/// A finished case.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct CaseRecord {
     /// Its name.
     pub case: String,
@@ -67,6 +100,12 @@ pub struct CaseRecord {
     pub results: Vec<KeptResult>,
     /// Rows of lines.
     pub lines: Vec<LineRow>,
+    /// Peaks of the lines that transient cases lose, of an intact case that such cases follow.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub peaks: Vec<LinePeaks>,
+    /// The intact case that it has followed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub intact: Option<FollowedCase>,
     /// What it has read.
     pub read: Vec<FileRead>,
     /// Version of the program.
@@ -76,6 +115,14 @@ pub struct CaseRecord {
 }
 
 impl CaseRecord {
+    /// What a transient case that follows this one keeps of it.
+    pub fn followed(&self) -> FollowedCase {
+        let ended = self.status != CaseStatus::Failed;
+        let text = ended.then(|| serde_json::to_string(&self.peaks).unwrap_or_default());
+        let sum = text.map(|text| format!("{:08x}", crc32fast::hash(text.as_bytes())));
+        FollowedCase { case: self.case.clone(), sum }
+    }
+
     /// The line of the file, its end included.
     ///
     /// # Errors

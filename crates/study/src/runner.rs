@@ -5,8 +5,8 @@ use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, result
 use crate::table::{Case, CaseTable};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Longest time that a record waits for the disk.
@@ -57,9 +57,9 @@ pub struct StudyPlan {
 
 /// A way to run a case.
 pub trait RunCase: Sync {
-    /// Runs a case with its answers in a folder, which is there and empty; `None` where it was interrupted. The start of the record
-    /// is set by the study.
-    fn run(&self, case: &Case, columns: &[String], folder: &Path) -> Option<CaseRecord>;
+    /// Runs a case with its answers in a folder, which is there and empty; `None` where it was interrupted. A transient case gets the
+    /// record of the intact one that it follows, which has not failed. The start of the record is set by the study.
+    fn run(&self, case: &Case, columns: &[String], folder: &Path, intact: Option<&CaseRecord>) -> Option<CaseRecord>;
     /// Whether a file is still as a case has read it.
     fn is_unchanged(&self, read: &FileRead) -> bool;
 }
@@ -105,7 +105,8 @@ impl Governing {
             let name = r.name.to_ascii_uppercase();
             [(format!("largest {name}"), r.value), (format!("least {name}"), -r.value)]
         });
-        let lines = record.lines.iter().filter_map(|row| {
+        let judged = record.lines.iter().filter(|_| record.judges_tension());
+        let lines = judged.filter_map(|row| {
             let (kind, value) = row.severity()?;
             Some((format!("line {} {} {kind:?}", row.label(), row.condition.word()), value))
         });
@@ -131,12 +132,52 @@ impl Governing {
     }
 }
 
+/// How long a worker waits for an intact case before it looks whether the study has been stopped.
+const LOOK_AFTER: Duration = Duration::from_millis(100);
+
+/// The records of intact cases that transient ones follow.
+#[derive(Default)]
+struct Followed {
+    /// Those that have ended; `None` of one that has been interrupted.
+    ended: Mutex<HashMap<String, Option<Arc<CaseRecord>>>>,
+    /// Names of those to wait for.
+    expected: HashSet<String>,
+    news: Condvar,
+}
+
+impl Followed {
+    /// Takes up a case that has ended, where another follows it.
+    fn end(&self, case: &Case, record: Option<&CaseRecord>) {
+        if case.peaks_of.is_empty() {
+            return;
+        }
+        let mut ended = self.ended.lock().unwrap_or_else(PoisonError::into_inner);
+        ended.insert(case.name.clone(), record.cloned().map(Arc::new));
+        self.news.notify_all();
+    }
+
+    /// The record of a case, once it has ended; `None` where there will be none.
+    fn wait(&self, case: &str, stop: &AtomicBool) -> Option<Arc<CaseRecord>> {
+        let mut ended = self.ended.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            if let Some(record) = ended.get(case) {
+                return record.clone();
+            }
+            if stop.load(Ordering::Relaxed) || !self.expected.contains(case) {
+                return None;
+            }
+            ended = self.news.wait_timeout(ended, LOOK_AFTER).unwrap_or_else(PoisonError::into_inner).0;
+        }
+    }
+}
+
 /// What the workers share.
 struct Shared<'a> {
     plan: &'a StudyPlan,
     files: &'a dyn Files,
     runner: &'a dyn RunCase,
     pending: Vec<&'a Case>,
+    followed: Followed,
     next: AtomicUsize,
     stop: &'a AtomicBool,
     start: u64,
@@ -188,28 +229,44 @@ pub fn run_study(
     let records: HashMap<&str, &CaseRecord> =
         earlier.iter().flat_map(|study| &study.records).map(|record| (record.case.as_str(), record)).collect();
     let (mut end, mut governing, mut pending) = (StudyEnd::default(), Governing::default(), Vec::new());
-    for case in &plan.table.cases {
+    let (mut followed, mut behind) = (Followed::default(), Vec::new());
+    // intact cases before the transient ones that follow them: no worker waits while there is other work
+    let (transient, others): (Vec<&Case>, Vec<&Case>) = plan.table.cases.iter().partition(|case| case.intact.is_some());
+    for case in others.into_iter().chain(transient) {
+        let list = if case.intact.is_some() { &mut behind } else { &mut pending };
         let Some(record) = records.get(case.name.as_str()) else {
-            pending.push(case);
+            followed.expected.insert(case.name.clone());
+            list.push(case);
             continue;
         };
-        match reason_to_run_again(plan, case, record, runner) {
+        let reason = reason_to_run_again(plan, case, record, runner).or_else(|| {
+            let intact = case.intact.as_deref()?;
+            if followed.expected.contains(intact) {
+                return Some(format!("its intact case {intact} is run again"));
+            }
+            let now = records.get(intact).map(|record| record.followed());
+            (now != record.intact).then(|| format!("its intact case {intact} has changed"))
+        });
+        match reason {
             None => {
                 end.kept += 1;
                 governing.offer(record);
+                followed.end(case, Some(record));
             }
             Some(reason) => {
                 end.again.push((case.name.clone(), reason));
-                pending.push(case);
+                followed.expected.insert(case.name.clone());
+                list.push(case);
             }
         }
     }
+    pending.append(&mut behind);
     let kept_cases = folder.join(KEPT_CASES);
     files.make_folder(&kept_cases).map_err(StudyError::of(&kept_cases))?;
     let jobs = plan.jobs.clamp(1, pending.len().max(1));
     let progress = Progress { total: pending.len(), ..Progress::default() };
     let state = Mutex::new((governing, progress, None));
-    let shared = Shared { plan, files, runner, pending, next: AtomicUsize::new(0), stop, start, state, told };
+    let shared = Shared { plan, files, runner, pending, followed, next: AtomicUsize::new(0), stop, start, state, told };
     std::thread::scope(|scope| {
         for worker in 0..jobs {
             let shared = &shared;
@@ -283,8 +340,32 @@ fn reason_to_run_again(plan: &StudyPlan, case: &Case, record: &CaseRecord, runne
     if record.version != plan.version {
         return Some(format!("it is of version {}", record.version));
     }
-    let changed = record.read.iter().find(|read| !runner.is_unchanged(read))?;
-    Some(format!("{} has changed", changed.path))
+    if let Some(changed) = record.read.iter().find(|read| !runner.is_unchanged(read)) {
+        return Some(format!("{} has changed", changed.path));
+    }
+    let has_peaks = |line: &&String| record.peaks.iter().any(|peaks| peaks.line.eq_ignore_ascii_case(line));
+    let line = case.peaks_of.iter().find(|line| !has_peaks(line)).filter(|_| record.status != CaseStatus::Failed)?;
+    Some(format!("it has kept no peaks of {line}, which a transient case loses"))
+}
+
+/// Runs a case, a transient one when the intact case that it follows has ended; `None` where it was interrupted, or that case was.
+fn run_case(shared: &Shared, case: &Case, running: &Path) -> Option<CaseRecord> {
+    let columns = &shared.plan.table.columns;
+    let Some(name) = &case.intact else { return shared.runner.run(case, columns, running, None) };
+    let intact = shared.followed.wait(name, shared.stop)?;
+    if intact.status != CaseStatus::Failed {
+        return shared.runner.run(case, columns, running, Some(&intact));
+    }
+    Some(CaseRecord {
+        case: case.name.clone(),
+        values: columns.iter().cloned().zip(case.values.iter().cloned()).collect(),
+        seed: case.seed,
+        status: CaseStatus::Failed,
+        reason: format!("its intact case {name} has failed: {}", intact.reason),
+        version: shared.plan.version.clone(),
+        intact: Some(intact.followed()),
+        ..CaseRecord::default()
+    })
 }
 
 /// One of the workers.
@@ -297,7 +378,14 @@ fn work(shared: &Shared, worker: usize) -> Result<(), StudyError> {
         let Some(case) = shared.pending.get(shared.next.fetch_add(1, Ordering::Relaxed)) else { break };
         files.remove_folder(&running).map_err(StudyError::of(&running))?;
         files.make_folder(&running).map_err(StudyError::of(&running))?;
-        let Some(mut record) = shared.runner.run(case, &plan.table.columns, &running) else { break };
+        let made = run_case(shared, case, &running);
+        shared.followed.end(case, made.as_ref());
+        let Some(mut record) = made else {
+            if case.intact.is_some() && !shared.stop.load(Ordering::Relaxed) {
+                continue;
+            }
+            break;
+        };
         record.start = shared.start;
         let line = record.encode().map_err(|error| StudyError::of(&results)(error.into()))?;
         // the folder first: a record says that all of its case is there

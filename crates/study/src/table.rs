@@ -1,5 +1,11 @@
 //! Tables of cases: CSV, or a grid of lists in TOML.
 
+use crate::kept::MooringCondition;
+use crate::lost::{
+    CONDITION, LOST, LostLines, PROBABILITY, condition_of, count_combinations, every_loss, find_intact_cases,
+};
+use crate::record::CaseRecord;
+use crate::stiffness::{CaseStiffness, STIFFNESS};
 use indexmap::IndexMap;
 use serde::Deserialize;
 use std::collections::HashMap;
@@ -45,6 +51,33 @@ pub struct Case {
     pub values: Vec<String>,
     /// Its seed.
     pub seed: u64,
+    /// The lines it is without, where the table has a column `lost`.
+    pub lost: Option<LostLines>,
+    /// The intact case that a transient one follows.
+    pub intact: Option<String>,
+    /// Lines that transient cases lose which follow this one: it keeps their peaks.
+    pub peaks_of: Vec<String>,
+    /// The stiffness of its fibre ropes, where the table has a column `stiffness`.
+    pub stiffness: Option<CaseStiffness>,
+}
+
+impl Case {
+    /// A case of a record of it, with its columns.
+    ///
+    /// # Errors
+    /// What is wrong with its cells.
+    pub fn from_record(record: &CaseRecord) -> Result<(Self, Vec<String>), String> {
+        let (columns, values): (Vec<String>, Vec<String>) = record.values.iter().cloned().unzip();
+        let cell = |name: &str| {
+            columns.iter().zip(&values).find(|(head, _)| head.eq_ignore_ascii_case(name)).map(|(_, cell)| cell.as_str())
+        };
+        let lost = cell(LOST).map(|lost| LostLines::parse(lost, cell(CONDITION))).transpose();
+        let lost = lost.map_err(|(column, message)| format!("column {column}: {message}"))?;
+        let intact = record.intact.as_ref().map(|intact| intact.case.clone());
+        let peaks_of = record.peaks.iter().map(|peaks| peaks.line.clone()).collect();
+        let stiffness = record.stiffness();
+        Ok((Case { name: record.case.clone(), values, seed: record.seed, lost, intact, peaks_of, stiffness }, columns))
+    }
 }
 
 /// A table of cases.
@@ -129,9 +162,60 @@ struct Grid {
     /// Groups of lists of one length, side by side; each group with every value of the others.
     #[serde(default)]
     zip: Vec<IndexMap<String, Vec<toml::Value>>>,
+    /// Lines that are lost, one and more at a time.
+    lost: Option<LostGrid>,
     /// Cases with all of these values are left out.
     #[serde(default)]
     exclude: Vec<IndexMap<String, toml::Value>>,
+}
+
+/// Losses of lines as a grid has them.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LostGrid {
+    /// Names of the lines.
+    lines: Vec<String>,
+    /// How many are lost at once; 0 is the intact mooring.
+    #[serde(default = "none_and_one")]
+    at_once: Vec<usize>,
+    /// Conditions of those with lines lost.
+    #[serde(default = "damaged")]
+    conditions: Vec<String>,
+}
+
+fn none_and_one() -> Vec<usize> {
+    vec![0, 1]
+}
+
+fn damaged() -> Vec<String> {
+    vec![MooringCondition::Damaged.word().to_owned()]
+}
+
+impl LostGrid {
+    /// The columns `LOST` and `CONDITION`, side by side.
+    fn columns(&self, most: usize) -> Result<IndexMap<String, Vec<String>>, String> {
+        let mut conditions = Vec::new();
+        for word in &self.conditions {
+            match condition_of(word) {
+                Some(condition) if condition != MooringCondition::Intact => conditions.push(condition),
+                _ => return Err(format!("`{word}` of conditions is neither damaged nor transient")),
+            }
+        }
+        if conditions.contains(&MooringCondition::Transient) && !self.at_once.contains(&0) {
+            return Err("a transient case follows an intact one: at_once = [0, ..]".into());
+        }
+        if let Some(many) = self.at_once.iter().find(|count| **count > self.lines.len()) {
+            return Err(format!("at_once loses {many} of {} lines", self.lines.len()));
+        }
+        let counts = self.at_once.iter().map(|count| count_combinations(self.lines.len(), *count));
+        let total = counts.sum::<Option<usize>>().and_then(|n| n.checked_mul(conditions.len().max(1)));
+        if total.is_none_or(|n| n > most) {
+            return Err(format!("its losses are more than {most} cases: --max-cases allows more"));
+        }
+        let rows = every_loss(&self.lines, &self.at_once, &conditions);
+        let (lost, condition) = rows.into_iter().map(|[lost, condition]| (lost, condition)).unzip();
+        Ok(IndexMap::from([(LOST.to_ascii_uppercase(), lost), (CONDITION.to_ascii_uppercase(), condition)]))
+    }
 }
 
 fn value_text(value: &toml::Value) -> Option<String> {
@@ -176,6 +260,17 @@ fn grid_rows(file: &str, text: &str, most: usize) -> Result<Rows, TableError> {
         {
             let message = format!("{unequal} values beside {length} of {first}: lists of [[zip]] have one length");
             return Err(wrong(None, Some(other), message));
+        }
+        groups.push(texts);
+    }
+    if let Some(lost) = &grid.lost {
+        let texts = lost.columns(most).map_err(|m| wrong(None, Some(LOST), m))?;
+        let is_a_list = |name: &&String| groups.iter().any(|g| g.keys().any(|known| known.eq_ignore_ascii_case(name)));
+        if let Some(name) = texts.keys().find(is_a_list) {
+            return Err(wrong(None, Some(name), "it stands twice, in [lost] and in a list".into()));
+        }
+        if texts.values().any(Vec::is_empty) {
+            return Err(wrong(None, Some(LOST), "it loses no line: lines and at_once say which".into()));
         }
         groups.push(texts);
     }
@@ -285,8 +380,10 @@ impl Rows {
             return Err(wrong(None, "", "it has no cases".into()));
         }
         let (member_at, seed_of_at, seed_at) = (find(MEMBER), find(SEED_OF), find(SEED));
+        let (lost_at, condition_at, stiffness_at) = (find(LOST), find(CONDITION), find(STIFFNESS));
         let mut seen: HashMap<String, Option<u64>> = HashMap::new();
         let mut cases = Vec::with_capacity(self.rows.len());
+        let mut lines = Vec::with_capacity(self.rows.len());
         for (line, row) in self.rows {
             for (head, cell) in self.heads.iter().zip(&row) {
                 if cell.is_empty() {
@@ -334,11 +431,38 @@ impl Rows {
                     crate::seeds::seed_of_case(study_seed, stands, u64::from(member))
                 }
             };
+            let lost = lost_at.map(|at| LostLines::parse(cell(at), condition_at.map(cell))).transpose();
+            let lost = lost.map_err(|(column, message)| wrong(line, column, message))?;
+            let stiffness = stiffness_at.map(|at| CaseStiffness::parse(cell(at))).transpose();
+            let stiffness = stiffness.map_err(|message| wrong(line, STIFFNESS, message))?;
             let values =
                 row.iter().enumerate().filter(|(at, _)| *at != name_at).map(|(_, cell)| cell.clone()).collect();
-            cases.push(Case { name, values, seed });
+            cases.push(Case { name, values, seed, lost, intact: None, peaks_of: Vec::new(), stiffness });
+            lines.push(line);
         }
         let columns = self.heads.iter().enumerate().filter(|(at, _)| *at != name_at).map(|(_, head)| head.clone());
-        Ok(CaseTable { columns: columns.collect(), cases, naming: self.naming })
+        let columns: Vec<String> = columns.collect();
+        let own = [MEMBER, SEED_OF, SEED, LOST, CONDITION, PROBABILITY];
+        let is_compared = |head: &String| !own.iter().any(|known| known.eq_ignore_ascii_case(head));
+        let intact = find_intact_cases(&cases, &columns.iter().map(is_compared).collect::<Vec<_>>());
+        let intact = intact.map_err(|at| {
+            let message = "there is no intact case with the same seed whose other columns are the same: seed_of gives cases the same seas";
+            wrong(lines.get(at).copied().flatten(), CONDITION, message.into())
+        })?;
+        let mut followed: HashMap<String, Vec<String>> = HashMap::new();
+        for (case, intact) in cases.iter_mut().zip(intact) {
+            let Some(name) = intact else { continue };
+            let known = followed.entry(name.clone()).or_default();
+            for line in case.lost.iter().flat_map(|lost| &lost.lines) {
+                if !known.iter().any(|other| other.eq_ignore_ascii_case(line)) {
+                    known.push(line.clone());
+                }
+            }
+            case.intact = Some(name);
+        }
+        for case in &mut cases {
+            case.peaks_of = followed.remove(&case.name).unwrap_or_default();
+        }
+        Ok(CaseTable { columns, cases, naming: self.naming })
     }
 }

@@ -17,6 +17,13 @@ const UNIT: OptionSpec =
     OptionSpec::ours("-UNIT", &[ValueSpec::new("UNIT", Kind::Text, "unit of VALUE as text")], "the unit of the value")
         .default("none: a pure number");
 
+const LEAST: OptionSpec = OptionSpec::ours(
+    "-LEAST",
+    &[],
+    "the value is the least of a storm (a clearance, a tension that goes slack): over seeds its distribution is one of minima",
+)
+.default("it is the largest");
+
 /// -RESULT of the commands that describe columns.
 pub(crate) const KEEP: OptionSpec = OptionSpec::ours(
     "-RESULT",
@@ -31,10 +38,10 @@ static SPEC: CommandSpec = CommandSpec {
         ValueSpec::new("NAME", Kind::Text, "name of the result: a letter, then letters, digits and _"),
         ValueSpec::new("VALUE", Kind::Number(Dim::None), "the number, in the unit of -UNIT"),
     ],
-    options: &[UNIT],
+    options: &[UNIT, LEAST],
     detail: "In a study (windlass study) the result is a column of its table; a row that lacks it has an empty cell. Elsewhere it is \
              printed alone. A name is kept once; two that differ in capitals alone are one. A value that is not finite is an error, so \
-             that its case counts as failed. -RESULT of STATISTIC and EXTREMES keeps what they find.",
+             that its case counts as failed. NAME_MIN of STATISTIC is the least of a storm. -RESULT of STATISTIC and EXTREMES keeps what they find.",
     example: "&SET TOP = 412.5\n&RESULT TOP_TENSION %TOP% -UNIT kips",
     ..CommandSpec::new("&RESULT", "keeps a number as a result of a study")
 };
@@ -45,16 +52,16 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let value = args.number(const { SPEC.number("VALUE") }).unwrap_or(f64::NAN);
     let unit = args.option(&UNIT).and_then(|given| given.word(const { UNIT.word("UNIT") })).unwrap_or_default();
     let span = args.data.first().map_or(args.span, |value| value.span);
-    keep(job, name, value, unit, span)?;
+    keep(job, name, (value, args.has(&LEAST)), unit, span)?;
     let text = format!("{name} = {value} {unit}");
     Ok(Effect::Say(format!("Result {}", text.trim_end())))
 }
 
-/// Keeps a result; a wrong one is an error at `span`.
-fn keep(job: &mut Job, name: &str, value: f64, unit: &str, span: Span) -> Outcome<()> {
+/// Keeps a result, a value and whether it is the least of a storm; a wrong one is an error at `span`.
+fn keep(job: &mut Job, name: &str, (value, is_least): (f64, bool), unit: &str, span: Span) -> Outcome<()> {
     let refused = |error: KeptError| Diagnostic::error(error.to_string(), span);
     let result = KeptResult::new(name, value, unit).map_err(refused)?;
-    job.kept.add(result).map_err(refused)
+    job.kept.add(if is_least { result.least() } else { result }).map_err(refused)
 }
 
 /// The names that -RESULT gives to the `columns` described; none without it.
@@ -87,7 +94,8 @@ pub(crate) fn keep_statistics(job: &mut Job, args: &Args, table: &Table) -> Outc
     for (row, (name, unit)) in names.iter().zip(&units).enumerate() {
         for (ending, head) in [("MEAN", "Mean"), ("SD", "Std. Dev."), ("MIN", "Minimum"), ("MAX", "Maximum")] {
             let cell = table.get(head).and_then(|column| column.cells.get(row)).and_then(Cell::number);
-            keep(job, &format!("{name}_{ending}"), cell.unwrap_or(f64::NAN), unit, given.span)?;
+            let value = (cell.unwrap_or(f64::NAN), ending == "MIN");
+            keep(job, &format!("{name}_{ending}"), value, unit, given.span)?;
         }
     }
     Ok(())
@@ -110,7 +118,7 @@ pub(crate) fn keep_extremes(job: &mut Job, args: &Args, table: &Table, units: Un
                 let Some(column) = column else { continue };
                 let Some(value) = column.cells.get(row).and_then(Cell::number) else { continue };
                 let (value, unit) = (column.dim.from_si(value, units), column.dim.label(units));
-                keep(job, &format!("{name}_{method}{ending}"), value, &unit, given.span)?;
+                keep(job, &format!("{name}_{method}{ending}"), (value, false), &unit, given.span)?;
             }
         }
     }

@@ -5,9 +5,10 @@ use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::units::Dim;
+use windlass_connectors::has_rope_stiffness;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionEffect, OptionSpec, ValueSpec};
-use windlass_model::{SolveKind, UnmodelledEffect};
+use windlass_model::{RopeStiffness, SolveKind, UnmodelledEffect};
 
 /// &PARAMETER.
 pub static PARAMETER: Command = Command { spec: &SPEC, edits: false, run };
@@ -20,6 +21,12 @@ const ACCEPT_MISSING: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours)
 .default("NO: they are refused");
 
+const STIFFNESS: OptionSpec = OptionSpec::ours(
+    "-STIFFNESS",
+    &[ValueSpec::choice::<RopeStiffness>("WHICH", "LOWER and UPPER of -EA_BOUNDS, DYNAMIC of -ROPE")],
+    "the axial stiffness of fibre ropes, of classes defined from then on",
+)
+.default("that of -ROPE, else LOWER");
 const SAVE: OptionSpec = OptionSpec::new("-SAVE", &[], "keeps the present parameters for -REMEMBER");
 const REMEMBER: OptionSpec = OptionSpec::new("-REMEMBER", &[], "goes back to the parameters saved last");
 const fn factor(name: &'static str, value: &'static [ValueSpec], help: &'static str) -> OptionSpec {
@@ -88,12 +95,13 @@ static SPEC: CommandSpec = CommandSpec {
         M_WLFRACTION,
         MAXREFINE,
         ACCEPT_MISSING,
+        STIFFNESS,
     ],
     detail: "-DRGTUB with several coefficients stops the next solve: drag by Reynolds number is not computed. Coefficients hold for tubes and \
              plates defined after. &STATUS PARAMETER lists what holds. Some records are read whose effect no solver computes (a factor of drift damping, say). Each is named when it is read, and stops the \
              next solve that it matters to, with one error that names the record and the effect. -ACCEPT_MISSING YES goes on, and every \
              report has a line that names them. A hull of -DIFTYPE FK has the pressure of the waves as they are without it; its added mass and radiation come from #AMASS, #DAMP or \
-             DATABASE. Without added mass natural periods are those of dry mass, so that &STATUS MODES, FREQ_RESPONSE and TDOM refuse such a body.",
+             DATABASE. -STIFFNESS chooses what a rope with -EA_BOUNDS or -ROPE is pulled by; it stands before its classes. Without added mass natural periods are those of dry mass, so that &STATUS MODES, FREQ_RESPONSE and TDOM refuse such a body.",
     example: "&PARAMETER -SAVE -AMCTUB 0.8 -DRGTUB 1E5 0.7\n&STATUS PARAMETER\n&PARAMETER -REMEMBER -ACCEPT_MISSING YES",
     ..CommandSpec::new("&PARAMETER", "sets what holds for all computations")
 };
@@ -101,6 +109,7 @@ static SPEC: CommandSpec = CommandSpec {
 fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut made = job.model.parameters;
     let mut saved = job.model.saved_parameters.clone();
+    let mut stiffness = job.model.defaults.rope_stiffness;
     let (mut unmodelled, mut remarks) = (Vec::new(), Vec::new());
     for given in &call.args.options {
         let value = given.values.first().and_then(|v| v.number());
@@ -115,6 +124,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
                     Diagnostic::error("no parameters have been saved", given.span).help("&PARAMETER -SAVE saves them")
                 })?;
             }
+            _ if given.is(&STIFFNESS) => stiffness = given.choice(const { STIFFNESS.choice("WHICH") }).or(stiffness),
             _ if given.is(&ACCEPT_MISSING) => made.accept_missing = given.is_on(),
             _ if given.is(&AMCTUB) => made.tube_added_mass = value,
             _ if given.is(&WCSTUBE) => made.tube_wind = value,
@@ -138,6 +148,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             },
         }
     }
+    if stiffness != job.model.defaults.rope_stiffness
+        && let Some(class) = job.model.classes.values().find(|class| class.records.iter().any(has_rope_stiffness))
+    {
+        let span = call.args.option(&STIFFNESS).map_or(call.args.span, |given| given.span);
+        let text =
+            format!("class {} has a stiffness already: -STIFFNESS stands before the classes of ropes", class.name);
+        return Err(Diagnostic::error(text, span).other(class.span, "defined here"));
+    }
+    job.model.defaults.rope_stiffness = stiffness;
     (job.model.parameters, job.model.saved_parameters) = (made, saved);
     for effect in unmodelled {
         job.warn(format!("not computed: {}; solves it matters to will stop", effect.sentence()), effect.span);

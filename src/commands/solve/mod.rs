@@ -6,6 +6,7 @@ pub(crate) mod equilibrium;
 pub(crate) mod excursion;
 pub(crate) mod frequency;
 pub(crate) mod hstatics;
+pub(crate) mod line_loss;
 pub(crate) mod lines;
 pub(crate) mod prescribe;
 pub(crate) mod restart;

@@ -4,6 +4,7 @@
 
 use crate::commands::menu;
 use crate::commands::solve::equilibrium::{to_diagnostic, warn_of_breaks, warn_of_lines};
+use crate::commands::solve::line_loss::{self, LineLoss};
 use crate::commands::solve::restart::resume;
 use crate::commands::solve::summary::{SolveSummary, count, excursion_in_run, worst_in_run};
 use crate::commands::solve::tether_run;
@@ -158,6 +159,10 @@ static SPEC: CommandSpec = CommandSpec {
         BALANCE,
         ALONG,
         SCREEN,
+        line_loss::LOSE,
+        line_loss::LOSE_AT,
+        line_loss::INSTANTS,
+        line_loss::FOLLOW,
         tether_run::TETHERS,
         tether_run::SLAM,
         tether_run::TOW,
@@ -173,6 +178,8 @@ static SPEC: CommandSpec = CommandSpec {
              A replay has elements of at most 20 m (60 to 200) and takes 1000 to 1200 steps. -TETHERS runs the connectors of class TETHER by the scheme of two stages of AQWA: a towed one \
              alone, its vessel at rest; installed ones with the one body they hold and its other connectors. It takes -STORE, -SLAM and -TOW of the \
              options here, and PRCPOST has TETHER and STRUCTURE for it. &ACTION says what happens during a run: lines that break, winches. \
+             -LOSE takes lines away at -LOSE_AT and goes on for -FOLLOW, however long TOBSERV is; statistics are of what is behind the loss. In a study a \
+             transient case has the instants from its intact case (docs/studies.md). \
              The first-order loads of a database are linear about the low-frequency place and heading of its body, what a filter leaves of them: \
              of motion with the dividing period and shorter ones 4 % at most, of ten and twenty times the period all within 25 % and 6 %. The period is printed.",
     example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY CART -IGNORE Y Z RX RY RZ\n*C 0 0 0\n#WEIGHT *C 100 1 1 1\n\
@@ -253,7 +260,7 @@ fn settings(job: &Job, args: &Args) -> Outcome<RunSettings> {
 }
 
 /// A run that begins.
-fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<Run> {
+fn begin_run(job: &mut Job, args: &Args, settings: RunSettings, loss: Option<&LineLoss>) -> Outcome<Run> {
     let wrong = |e, job: &Job| to_diagnostic(e, &job.model, args.span, job.units);
     let mut model = job.model.clone();
     model.parameters.dividing = args.option_number(&DIVIDING);
@@ -270,9 +277,11 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<Run> 
     if args.has(&EQUI) {
         let options = job.equilibrium.clone();
         find_equilibrium_with_rebuilds(&mut model, &options).map_err(|e| wrong(e, job))?;
-        began = Some("at the equilibrium with the mean forces, as &EQUI finds it".into());
+        began = Some(line_loss::BEGAN_AT_EQUILIBRIUM.into());
     }
-    let mut made = Run::new(&model, settings, job.actions.clone()).map_err(|e| wrong(e, job))?;
+    let mut actions = job.actions.clone();
+    actions.extend(loss.map(LineLoss::action));
+    let mut made = Run::new(&model, settings, actions).map_err(|e| wrong(e, job))?;
     if let Some(text) = began {
         made.began = text;
     }
@@ -283,7 +292,7 @@ fn begin_run(job: &mut Job, args: &Args, settings: RunSettings) -> Outcome<Run> 
 }
 
 /// The file that a run is kept in, where it is kept; a run that goes on is taken to where the one in the file was.
-fn open_file(job: &mut Job, call: &Call, made: &mut Run) -> Outcome<Option<RunLog>> {
+fn open_file(job: &mut Job, call: &Call, made: &mut Run, loss: Option<&LineLoss>) -> Outcome<Option<RunLog>> {
     let args = &call.args;
     if !made.settings.keep {
         return Ok(None);
@@ -294,16 +303,17 @@ fn open_file(job: &mut Job, call: &Call, made: &mut Run) -> Outcome<Option<RunLo
     let path = job.output.folder.folder.join(FILE);
     let refused = |text: String| Diagnostic::error(text, args.span);
     let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
-    keep_records(job, FILE, call);
+    keep_records(job, FILE, call, &loss.map_or_else(String::new, |loss| loss.missing_options(args)));
     let run = (made.fingerprint(), made.history.layout.width);
     let log = RunLog::begin((file, path), run, job.states_taken());
     Ok(Some(log.map_err(|e| refused(e.to_string()))?))
 }
 
-/// Writes the records that make the model of a run beside the file of the run, its own record last: `windlass open` runs them.
-pub(crate) fn keep_records(job: &mut Job, file: &str, call: &Call) {
+/// Writes the records that make the model of a run beside the file of the run, its own record last, with options that make it complete:
+/// `windlass open` runs them.
+pub(crate) fn keep_records(job: &mut Job, file: &str, call: &Call, options: &str) {
     let name = records_of(file);
-    let text = format!("{}{}\n", job.journal.script(true), call.record.text().trim());
+    let text = format!("{}{}{options}\n", job.journal.script(true), call.record.text().trim());
     let written = if job.journal.overflows() {
         Err("the session has more records than are kept (64 MB)".to_string())
     } else {
@@ -342,9 +352,14 @@ impl Watcher for StoredEnd {
 }
 
 /// Takes the run of a file as the last run, with what it came to.
-fn open_stored(job: &mut Job, args: &Args, settings: RunSettings, kept: StoredRun) -> Outcome<Effect> {
+fn open_stored(
+    job: &mut Job,
+    args: &Args,
+    (settings, loss): (RunSettings, Option<&LineLoss>),
+    kept: StoredRun,
+) -> Outcome<Effect> {
     let span = args.span;
-    let mut made = begin_run(job, args, settings)?;
+    let mut made = begin_run(job, args, settings, loss)?;
     if kept.fingerprint != made.fingerprint() || kept.width != made.history.layout.width {
         return Err(Diagnostic::error("the run is not that of the records kept beside it", span)
             .help("a file that they read has changed, or another version of windlass made the run"));
@@ -424,15 +439,24 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(given) = args.option(&tether_run::SLAM).or(args.option(&tether_run::TOW)) {
         return Err(Diagnostic::error(format!("{} goes with -TETHERS", given.name()), given.span));
     }
-    let settings = settings(job, args)?;
+    let mut settings = settings(job, args)?;
     if job.model.bodies.is_empty() {
         return Err(Diagnostic::error("there is no body to move", span).help("&DESCRIBE BODY describes one"));
     }
-    if let Some(kept) = job.stored_run.take() {
-        return open_stored(job, args, settings, kept);
+    let loss = LineLoss::new(job, args)?;
+    if let Some(loss) = &loss {
+        settings = loss.settings(job, settings, args)?;
     }
-    let mut made = begin_run(job, args, settings)?;
-    let log = open_file(job, call, &mut made)?;
+    let loss = loss.as_ref();
+    job.line_loss = loss.map(|loss| loss.instant.clone());
+    if let Some(kept) = job.stored_run.take() {
+        return open_stored(job, args, (settings, loss), kept);
+    }
+    let mut made = begin_run(job, args, settings, loss)?;
+    let log = open_file(job, call, &mut made, loss)?;
+    if let Some(loss) = loss {
+        job.remark(loss.remark(), span);
+    }
     warn_of_still_pieces(job, &made, span);
     if tethered::has_tethers(&job.model) {
         job.remark(
@@ -451,6 +475,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     }
     let ended = made.run(&mut going);
     drop(going);
+    let same = loss.map_or(Ok(()), |loss| loss.compare(&made));
     let screening = screen_lines(job, args, &made, ended.as_ref().ok());
     let mut first = run_tables::run_table(&made);
     if let Err(Some(reason)) = &screening {
@@ -520,6 +545,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.say_tables(&tables);
     let wrong = |e| to_diagnostic(e, &job.model, span, job.units);
     ended.map_err(wrong)?;
+    same.map_err(|text| {
+        Diagnostic::error(text, span).help("the script makes the same run of both cases up to the loss")
+    })?;
     checked.transpose().map_err(wrong)?;
     peaks.map_err(wrong)?;
     Ok(Effect::Done)

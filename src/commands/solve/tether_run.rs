@@ -167,7 +167,7 @@ fn open_log(job: &mut Job, call: &Call, run: &mut TetherRun) -> Outcome<Option<R
     let Some(again) = args.option(&tdom::RESTART) else {
         let refused = |text: String| Diagnostic::error(text, args.span);
         let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
-        tdom::keep_records(job, FILE, call);
+        tdom::keep_records(job, FILE, call, "");
         let log = RunLog::begin((file, path), (run.fingerprint(), run.width()), job.states_taken());
         return Ok(Some(log.map_err(|e| refused(e.to_string()))?));
     };

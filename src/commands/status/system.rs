@@ -7,6 +7,7 @@ use crate::commands::model::process;
 use crate::commands::status::body_status;
 use crate::commands::status::kind::StatusKind;
 use crate::commands::status::model_tables;
+use windlass_base::choice::Choice;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_model::{EntityKind, Model};
@@ -79,4 +80,5 @@ fn parameters(job: &Job) -> Table {
         .fact("-DRGPLA", p.plate_drag.unwrap_or(1.0), Dim::None)
         .fact("-REL_WIND", "YES", Dim::None)
         .fact("-ACCEPT_MISSING", yes_no(p.accept_missing), Dim::None)
+        .fact("-STIFFNESS", job.model.defaults.rope_stiffness.map_or("not chosen", Choice::word), Dim::None)
 }

@@ -59,6 +59,12 @@ fn result(record: &CaseRecord, (name, unit): (&str, &str)) -> Option<f64> {
     Some(found.value).filter(|_| found.unit == unit)
 }
 
+/// Whether a result is an offset by its name.
+fn is_offset(name: &str) -> bool {
+    let name = name.to_ascii_uppercase();
+    OFFSETS.iter().any(|word| name.contains(word))
+}
+
 fn input_cell(value: Option<&str>) -> ReportCell {
     let text = value.unwrap_or_default();
     ReportCell { text: text.to_owned(), number: text.parse().ok().filter(|n: &f64| n.is_finite()), tone: Tone::Plain }
@@ -146,7 +152,7 @@ pub fn result_section(view: &StudyView) -> Section {
         ReportTable::new(&["Result", "Condition", "Cases", "Least", "In case", "Mean", "Largest", "In case"]);
     for name in result_names(view) {
         let mut found: BTreeMap<Option<MooringCondition>, Vec<(f64, &str)>> = BTreeMap::new();
-        for record in view.ended() {
+        for record in view.ended().filter(|record| !is_offset(name.0) || record.judges_offset()) {
             if let Some(value) = result(record, name) {
                 found.entry(condition(record)).or_default().push((value, &record.case));
             }
@@ -197,7 +203,7 @@ pub fn direction_section(view: &StudyView) -> Section {
         .filter(|(name, _)| {
             let name = name.to_ascii_uppercase();
             let is_other = ["_MEAN", "_SD", "_MIN", "_LEAST"].iter().any(|end| name.ends_with(end));
-            OFFSETS.iter().any(|word| name.contains(word)) && !is_other
+            is_offset(&name) && !is_other
         })
         .collect();
     let mut found: BTreeMap<Option<MooringCondition>, Vec<(f64, OfDirection)>> = BTreeMap::new();
@@ -210,7 +216,7 @@ pub fn direction_section(view: &StudyView) -> Section {
         });
         let Some((_, here)) = list.get_mut(at) else { continue };
         here.cases += 1;
-        for row in &record.lines {
+        for row in record.lines.iter().filter(|_| record.judges_tension()) {
             if let Some(tension) = row.max_tension.filter(|t| here.tension.as_ref().is_none_or(|(known, _)| t > known))
             {
                 here.tension = Some((tension, row.label()));
@@ -221,7 +227,7 @@ pub fn direction_section(view: &StudyView) -> Section {
                 here.case = &record.case;
             }
         }
-        for (known, name) in here.results.iter_mut().zip(&offsets) {
+        for (known, name) in here.results.iter_mut().zip(&offsets).filter(|_| record.judges_offset()) {
             *known = match (*known, result(record, *name)) {
                 (Some(known), Some(value)) => Some(known.max(value)),
                 (known, value) => known.or(value),
@@ -372,7 +378,11 @@ pub fn case_section(view: &StudyView, governing: &[Governing]) -> Section {
         let least = record.lines.iter().filter_map(|row| Some((row.safety_factor?, row)));
         let least = least.reduce(|a, b| if b.0 < a.0 { b } else { a });
         let worst = record.lines.iter().filter_map(|row| row.verdict).max();
-        let verdict = if record.lines.is_empty() { ReportCell::text("") } else { view.verdict(worst) };
+        let verdict = match record.lines.as_slice() {
+            [] => ReportCell::text(""),
+            _ if !record.judges_tension() => ReportCell::text("offset alone"),
+            _ => view.verdict(worst),
+        };
         let mut cells = vec![ReportCell::text(&record.case)];
         cells.extend(inputs.iter().map(|name| input_cell(input(record, name))));
         let tone = if record.status == CaseStatus::Done { Tone::Plain } else { Tone::Fail };

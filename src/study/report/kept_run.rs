@@ -25,6 +25,11 @@ const SAME_TENSION: f64 = 1e-6;
 pub fn script_of_case(folder: &Path) -> Option<PathBuf> {
     let folder = std::path::absolute(folder).ok()?;
     let study = folder.parent()?.parent()?;
+    // an instant of a transient case lies a folder deeper
+    script_of_study(study).or_else(|| script_of_study(study.parent()?))
+}
+
+fn script_of_study(study: &Path) -> Option<PathBuf> {
     let text = std::fs::read_to_string(study.join(INFO)).ok()?;
     let info: StudyInfo = serde_json::from_str(&text).ok()?;
     info.find_script(study)
@@ -46,9 +51,22 @@ impl KeptRun {
     /// # Errors
     /// A run that cannot be read, or whose records do not make its model again.
     pub fn open(study: &Path, case: &str) -> Result<KeptRun, String> {
+        Self::open_folder(study, study.join(KEPT_CASES).join(case))
+    }
+
+    /// Opens the run of an instant of a transient case, by its number; that of another case is the case's own.
+    ///
+    /// # Errors
+    /// As [`KeptRun::open`].
+    pub fn open_instant(study: &Path, case: &str, instant: Option<usize>) -> Result<KeptRun, String> {
         let folder = study.join(KEPT_CASES).join(case);
+        let own = instant.map(|number| folder.join(format!("instant-{number}")));
+        Self::open_folder(study, own.filter(|own| own.is_dir()).unwrap_or(folder))
+    }
+
+    fn open_folder(study: &Path, folder: PathBuf) -> Result<KeptRun, String> {
         let (kept, records) = find_stored(&folder).map_err(|error| error.to_string())?;
-        let root = script_of_case(&folder).map_or_else(|| folder.clone(), |script| script.with_extension(""));
+        let root = script_of_study(study).map_or_else(|| folder.clone(), |script| script.with_extension(""));
         let job = JobFolder::new(root, Some(folder), false);
         let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
         session.keep_reports = true;

@@ -30,7 +30,7 @@ type SegmentKey = (MooringCondition, usize);
 pub fn governing_rows<'a>(view: &StudyView<'a>) -> Vec<Governing<'a>> {
     let mut order: Vec<(&str, Option<usize>)> = Vec::new();
     let mut best: BTreeMap<SegmentKey, (SeverityKind, f64, Governing<'a>)> = BTreeMap::new();
-    for record in view.ended() {
+    for record in view.judging_tension() {
         for row in &record.lines {
             let Some((kind, value)) = row.severity() else { continue };
             let name = (row.line.as_str(), row.segment);
@@ -92,6 +92,12 @@ impl StudyView<'_> {
     }
 }
 
+/// The lines lost, in a transient case with the instant.
+fn lost_text(row: &LineRow) -> String {
+    let lost = row.lost.join(" ");
+    row.loss.as_ref().map_or(lost.clone(), |loss| format!("{lost} at {:.1} s: {}", loss.time, loss.reason))
+}
+
 /// The governing row of each segment and condition, with its safety factor against the code.
 pub fn governing_table(view: &StudyView, rows: &[Governing]) -> ReportTable {
     let force = |name: &str| view.force_head(name);
@@ -123,7 +129,7 @@ pub fn governing_table(view: &StudyView, rows: &[Governing]) -> ReportTable {
             ReportCell::text(row.condition.word()),
             ReportCell::text(row.label()),
             ReportCell::text(&found.record.case),
-            ReportCell::text(row.lost.join(" ")),
+            ReportCell::text(lost_text(row)),
             ReportCell::number(row.safety_factor, 2).toned(tone),
             ReportCell::number(row.required_safety_factor, 2),
             ReportCell::number(row.utilisation, 3).toned(tone),
@@ -149,7 +155,7 @@ fn is_exceeded(row: &LineRow) -> bool {
 
 /// What a reviewer asks first: records in which a tension is larger than what is checked, and how many would not be met by it.
 fn exceedances(view: &StudyView, section: &mut Section) {
-    let rows = || view.ended().flat_map(|record| record.lines.iter().map(move |row| (record, row)));
+    let rows = || view.judging_tension().flat_map(|record| record.lines.iter().map(move |row| (record, row)));
     let exceeded: Vec<_> = rows().filter(|(_, row)| is_exceeded(row)).collect();
     if exceeded.is_empty() {
         return;
@@ -182,6 +188,28 @@ fn exceedances(view: &StudyView, section: &mut Section) {
     section.say_in(if met > 0 { Tone::Unconfirmed } else { Tone::Plain }, text + ".");
 }
 
+/// Which cases judge what, where fibre ropes have a stiffness by case.
+fn say_stiffness(view: &StudyView, section: &mut Section) {
+    use windlass_study::stiffness::CaseStiffness::{Dynamic, Lower, Upper};
+    let count = |stiffness| view.ended().filter(|record| record.stiffness() == Some(stiffness)).count();
+    let (lower, upper, dynamic) = (count(Lower), count(Upper), count(Dynamic));
+    if lower + upper + dynamic == 0 {
+        return;
+    }
+    section.say(format!(
+        "Fibre rope: offsets are judged by the cases with stiffness lower ({lower}), tensions, anchors and fatigue by those with upper \
+         ({upper}), both by those with dynamic ({dynamic})."
+    ));
+    for (what, missing, word) in
+        [("tensions", upper + dynamic == 0, "upper"), ("offsets", lower + dynamic == 0, "lower")]
+    {
+        if missing {
+            let text = format!("No case has the stiffness {word} or dynamic: {what} are not judged.");
+            section.say_in(Tone::Unconfirmed, text);
+        }
+    }
+}
+
 /// A line a condition: the segment that governs it.
 pub fn summary(view: &StudyView, rows: &[Governing], section: &mut Section) {
     let mut worst: BTreeMap<MooringCondition, Governing> = BTreeMap::new();
@@ -207,12 +235,12 @@ pub fn summary(view: &StudyView, rows: &[Governing], section: &mut Section) {
     ]);
     for (condition, found) in &worst {
         let of_condition = |record: &&CaseRecord| record.lines.iter().any(|row| row.condition == *condition);
-        let all = || view.ended().flat_map(|record| &record.lines).filter(|row| row.condition == *condition);
+        let all = || view.judging_tension().flat_map(|record| &record.lines).filter(|row| row.condition == *condition);
         let failing = all().filter(|row| row.verdict == Some(LineVerdict::Fail)).count();
         let verdict = view.verdict(found.row.verdict);
         table.rows.push(vec![
             ReportCell::text(condition.word()),
-            ReportCell::number(Some(view.ended().filter(of_condition).count() as f64), 0),
+            ReportCell::number(Some(view.judging_tension().filter(of_condition).count() as f64), 0),
             ReportCell::text(found.row.label()),
             ReportCell::text(&found.record.case),
             ReportCell::number(found.row.safety_factor, 2).toned(verdict.tone),
@@ -223,6 +251,7 @@ pub fn summary(view: &StudyView, rows: &[Governing], section: &mut Section) {
         ]);
     }
     section.show(table);
+    say_stiffness(view, section);
     let sources: BTreeSet<String> = view
         .ended()
         .flat_map(|record| &record.lines)
@@ -357,7 +386,7 @@ pub fn anchor_section(view: &StudyView) -> Section {
     let mut section = Section::new("anchors", "Anchors");
     let mut best: BTreeMap<(MooringCondition, (String, u64, String)), Governing> = BTreeMap::new();
     let mut lifted: BTreeMap<(MooringCondition, &str), usize> = BTreeMap::new();
-    for record in view.ended() {
+    for record in view.judging_tension() {
         for row in record.lines.iter().filter(|row| row.anchor_horizontal.is_some()) {
             let order = |g: &LineRow| {
                 let pull = g.anchor_horizontal.unwrap_or(0.0).hypot(g.anchor_vertical.unwrap_or(0.0));
@@ -430,7 +459,7 @@ pub fn fatigue_section(view: &StudyView) -> Section {
         !earlier.iter().any(|e| e.line == row.line && e.segment == row.segment && e.annual_damage.is_some())
     };
     let with_damage = || {
-        let rows = view.ended().flat_map(|r| r.lines.iter().enumerate().map(move |(at, row)| (r, at, row)));
+        let rows = view.judging_tension().flat_map(|r| r.lines.iter().enumerate().map(move |(at, row)| (r, at, row)));
         let rows = rows.filter(|(record, at, row)| row.annual_damage.is_some() && is_first(record, *at, row));
         rows.map(|(record, _, row)| (record, row))
     };

@@ -66,6 +66,11 @@ pub struct StudyView<'a> {
 }
 
 impl<'a> StudyView<'a> {
+    /// The cases by which tensions, anchors and fatigue are judged: with fibre ropes not those at their least stiffness.
+    fn judging_tension(&self) -> impl Iterator<Item = &'a CaseRecord> + Clone + use<'a> {
+        self.ended().filter(|record| record.judges_tension())
+    }
+
     /// The cases that have not failed.
     fn ended(&self) -> impl Iterator<Item = &'a CaseRecord> + Clone + use<'a> {
         self.study.records.iter().filter(|record| record.status != CaseStatus::Failed)
@@ -294,14 +299,16 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
     governing.show(lines::governing_table(view, &rows));
     let mut histories: BTreeMap<usize, Block> = BTreeMap::new();
     let mut replayed: Vec<Replayed> = Vec::new();
-    let mut by_case: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    // of a transient case each instant of the loss is a run of its own
+    let mut by_case: BTreeMap<(&str, Option<usize>), Vec<usize>> = BTreeMap::new();
     for (at, found) in rows.iter().enumerate() {
-        by_case.entry(&found.record.case).or_default().push(at);
+        let instant = found.row.loss.as_ref().map(|loss| loss.number);
+        by_case.entry((&found.record.case, instant)).or_default().push(at);
     }
     let to_replay = cases_to_replay(view, &rows);
-    by_case.retain(|case, _| KeptRun::is_kept(study, case));
-    for (case, numbers) in by_case {
-        let opened = KeptRun::open(study, case);
+    by_case.retain(|(case, _), _| KeptRun::is_kept(study, case));
+    for ((case, instant), numbers) in by_case {
+        let opened = KeptRun::open_instant(study, case, instant);
         if let (Ok(kept), true) = (&opened, to_replay.contains(&case)) {
             replayed.extend(kept.replay(case));
         }
@@ -379,7 +386,7 @@ fn banner(view: &StudyView) -> Vec<Block> {
             "UNCONFIRMED: factors or curves of this study are not confirmed by their source. No check of this report is a pass.",
         );
     }
-    let rows = || view.ended().flat_map(|record| &record.lines);
+    let rows = || view.judging_tension().flat_map(|record| &record.lines);
     let failing = rows().filter(|row| [row.verdict, row.anchor_verdict].contains(&Some(LineVerdict::Fail))).count();
     let checked = rows().filter(|row| row.verdict.is_some()).count();
     let failed = study.count(CaseStatus::Failed);

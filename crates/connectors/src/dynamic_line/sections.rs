@@ -12,7 +12,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{RodSegment, TensionLaw, TubeSection, ViscoelasticRope};
-use windlass_model::{ClassError, ClassRecord, Surroundings};
+use windlass_model::{ClassError, ClassRecord, RopeStiffness, Surroundings};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics [AQWA-CONN 5.8.3.1].
 const AQWA_CD: f64 = 1.0;
@@ -72,7 +72,7 @@ pub const EA: OptionSpec = OptionSpec::ours(
 )
 .default("that of the tube");
 /// What a line with a class of static lines takes as a dynamic one.
-pub const LINE_OPTIONS: [OptionSpec; 4] = [CD, CA, AX_DAMPING, SEABED];
+pub const LINE_OPTIONS: [OptionSpec; 5] = [CD, CA, AX_DAMPING, SEABED, ROPE];
 /// `-STRETCH`.
 pub const STRETCH: OptionSpec = OptionSpec::ours(
     "-STRETCH",
@@ -88,7 +88,7 @@ pub const ROPE: OptionSpec = OptionSpec::ours(
         number("B", Dim::None, "how that grows with the mean tension").or("0").not_negative(),
         number("TAU", Dim::Time, "relaxation time").or("100").positive(),
     ],
-    "fibre rope: -EA or -STRETCH is its static stiffness, EAD + B T its dynamic one",
+    "fibre rope: -EA, -STRETCH or EAL of -EA_BOUNDS is its static stiffness, EAD + B T its dynamic one",
 );
 /// `-CLUMP_DRAG`.
 pub const CLUMP_DRAG: OptionSpec = OptionSpec::ours(
@@ -204,7 +204,7 @@ impl Flexure {
                 [typed.map_or(AQWA_CD, |t| t.line_type.drag.coefficient), AQWA_CX / PI, WIND_CD],
             ),
             ca: given_or(args.option_if_declared(&CA), const { CA.numbers(["CAN", "CAT"]) }, [AQWA_CA, 0.0]),
-            axial: rope(args, law(args, section.ea)?)?,
+            axial: axial_law(record, section.ea)?,
             damping: option(&AX_DAMPING).unwrap_or(0.0),
             bending,
             tube: tube.then(|| {
@@ -263,6 +263,16 @@ impl Flexure {
         };
         let strength = BreakingStrength { breaking: section.breaking, is_given: section.break_is_given };
         LinePart { segment, strength, joint: self.joint(section, around) }
+    }
+}
+
+/// Tension by strain of a record: of a fibre rope one of its bounds, or its static and dynamic stiffness.
+fn axial_law(record: &ClassRecord, ea: f64) -> Outcome<TensionLaw> {
+    let (args, chosen) = (&record.args, record.defaults.rope_stiffness);
+    let slow = law(args, ea)?;
+    match chosen {
+        Some(RopeStiffness::Lower | RopeStiffness::Upper) => Ok(slow),
+        Some(RopeStiffness::Dynamic) | None => rope(args, slow),
     }
 }
 

@@ -7,7 +7,7 @@ use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use windlass_study::kept::KeptResult;
-use windlass_study::record::{CaseRecord, CaseStatus, FileRead, decode};
+use windlass_study::record::{CaseRecord, CaseStatus, FileRead, LinePeaks, Peak, decode};
 use windlass_study::runner::{Keep, RunCase, StudyPlan, run_study};
 use windlass_study::store::{Files, Study, SystemFiles};
 use windlass_study::table::{Case, CaseTable, MOST_CASES};
@@ -73,7 +73,7 @@ impl Files for Stopping {
 struct Squares;
 
 impl RunCase for Squares {
-    fn run(&self, case: &Case, columns: &[String], folder: &Path) -> Option<CaseRecord> {
+    fn run(&self, case: &Case, columns: &[String], folder: &Path, _: Option<&CaseRecord>) -> Option<CaseRecord> {
         let x: f64 = case.values[0].parse().unwrap();
         fs::write(folder.join("answer"), &case.name).unwrap();
         let failed = x == 4.0;
@@ -83,16 +83,10 @@ impl RunCase for Squares {
             seed: case.seed,
             status: if failed { CaseStatus::Failed } else { CaseStatus::Done },
             reason: if failed { "four".into() } else { String::new() },
-            title: String::new(),
-            units: None,
-            seconds: 0.0,
-            messages: Vec::new(),
-            caveats: Vec::new(),
             results: if failed { Vec::new() } else { vec![KeptResult::new("SQUARE", x * x, "").unwrap()] },
-            lines: Vec::new(),
             read: vec![FileRead { path: "model".into(), size: 1, hash: "h".into() }],
             version: "1".into(),
-            start: 0,
+            ..CaseRecord::default()
         })
     }
 
@@ -175,6 +169,91 @@ fn study_stopped_after_any_operation_goes_on_to_the_same_end() {
     }
     // three before the cases, three or four for each of them, and what is given up and seen to the disk
     assert!((25..40).contains(&stops) && finished == 1, "{stops} stops");
+}
+
+/// Cases with lines lost: an intact one has its X as the time of the peaks of its lines, a transient one keeps twice that of the intact case it
+/// follows.
+struct Losses;
+
+impl RunCase for Losses {
+    fn run(&self, case: &Case, columns: &[String], folder: &Path, intact: Option<&CaseRecord>) -> Option<CaseRecord> {
+        let made = Squares.run(case, columns, folder, None)?;
+        let x: f64 = case.values[0].parse().unwrap();
+        let peaks = |line: &String| LinePeaks {
+            line: line.clone(),
+            tension: vec![Peak { time: x, value: 1.0, before: None }],
+            offset: None,
+        };
+        assert_eq!(intact.is_some(), case.intact.is_some(), "{}", case.name);
+        let Some(intact) = intact else {
+            return Some(CaseRecord { peaks: case.peaks_of.iter().map(peaks).collect(), ..made });
+        };
+        let results = vec![KeptResult::new("SQUARE", 2.0 * intact.peaks[0].tension[0].time, "").unwrap()];
+        Some(CaseRecord { results, intact: Some(intact.followed()), ..made })
+    }
+
+    fn is_unchanged(&self, read: &FileRead) -> bool {
+        read.hash == "h"
+    }
+}
+
+/// A transient case before the intact one that it follows, and one whose intact case fails.
+const LOSSES: &str = "case,X,lost,condition,seed_of\nT,7,L1,transient,a\nI,7,NONE,intact,a\nD,7,L1,damaged,a\n\
+                      J,4,NONE,intact,b\nU,4,L1+L2,transient,b\n";
+
+fn losses(folder: &Path, text: &str, jobs: usize) -> StudyPlan {
+    StudyPlan { table: CaseTable::parse("cases.csv", text, 1, MOST_CASES).unwrap(), jobs, ..plan(folder) }
+}
+
+#[test]
+fn transient_cases_follow_intact_ones_wherever_a_study_is_stopped() {
+    let end = |plan: &StudyPlan| {
+        let study = Study::open(&plan.folder).unwrap();
+        let row = |r: &CaseRecord| (r.case.clone(), r.status, r.results.first().map(|s| s.value), r.reason.clone());
+        study.records.iter().map(row).collect::<Vec<_>>()
+    };
+    let row = |case: &str, status, value, reason: &str| (case.to_owned(), status, value, reason.to_owned());
+    let by_hand = [
+        row("T", CaseStatus::Done, Some(14.0), ""),
+        row("I", CaseStatus::Done, Some(49.0), ""),
+        row("D", CaseStatus::Done, Some(49.0), ""),
+        row("J", CaseStatus::Failed, None, "four"),
+        row("U", CaseStatus::Failed, None, "its intact case J has failed: four"),
+    ];
+    for jobs in [1, 3] {
+        for n in 0..40 {
+            let folder = tempfile::tempdir().unwrap();
+            let plan = losses(folder.path(), LOSSES, jobs);
+            let files = Stopping { left: AtomicUsize::new(n) };
+            let _ = run_study(&plan, &files, &Losses, &AtomicBool::new(false), &|_| ());
+            run_study(&plan, &SystemFiles, &Losses, &AtomicBool::new(false), &|_| ()).unwrap();
+            assert_eq!(end(&plan), by_hand, "{jobs} workers, stopped after {n} operations");
+        }
+    }
+}
+
+#[test]
+fn transient_case_is_run_again_with_the_intact_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let go = |text: &str, retry_failed| {
+        let plan = StudyPlan { retry_failed, ..losses(folder.path(), text, 2) };
+        let mut again = run_study(&plan, &SystemFiles, &Losses, &AtomicBool::new(false), &|_| ()).unwrap().again;
+        again.sort();
+        again.into_iter().map(|(case, reason)| format!("{case}: {reason}")).collect::<Vec<_>>()
+    };
+    assert!(go(LOSSES, false).is_empty());
+    assert!(go(LOSSES, false).is_empty());
+    let both = ["J: it failed", "U: it failed"];
+    assert_eq!(go(LOSSES, true), both);
+    // a line more is lost: the intact case has no peaks of it
+    let more = format!("{LOSSES}V,7,L3,transient,a\n");
+    let wanted = ["I: it has kept no peaks of L3, which a transient case loses", "T: its intact case I is run again"];
+    assert_eq!(go(&more, false), wanted);
+    // the intact case that failed does so no more
+    let mended = more.replace("J,4", "J,5").replace("U,4", "U,5");
+    assert_eq!(go(&mended, false), ["J: its row has changed", "U: its row has changed"]);
+    let study = Study::open(&folder.path().join("S")).unwrap();
+    assert!(study.records.iter().all(|record| record.status == CaseStatus::Done));
 }
 
 #[test]

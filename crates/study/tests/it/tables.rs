@@ -1,5 +1,6 @@
 //! Tables of cases: what they come to by hand, and what is wrong with them.
 
+use windlass_study::kept::MooringCondition;
 use windlass_study::seeds::seed_of_case;
 use windlass_study::table::{CaseTable, MOST_CASES};
 
@@ -38,6 +39,45 @@ fn lists_are_multiplied_zipped_and_excluded() {
 }
 
 #[test]
+fn every_line_and_pair_is_lost_in_each_condition() {
+    let text = "case = \"{HS}_{LOST}_{CONDITION}\"\nseed_of = \"{HS}\"\n[grid]\nHS = [4, 9]\n\
+                [lost]\nlines = [\"L1\", \"L2\", \"L3\"]\nat_once = [0, 1, 2]\nconditions = [\"damaged\", \"transient\"]\n";
+    let table = CaseTable::parse("cases.toml", text, 1, MOST_CASES).unwrap();
+    assert_eq!(table.columns, ["HS", "LOST", "CONDITION", "seed_of"]);
+    // two seas; intact, three single and three double losses, each damaged and transient
+    assert_eq!(table.cases.len(), 2 * (1 + 2 * (3 + 3)));
+    let names: Vec<&str> = table.cases.iter().take(13).map(|case| case.name.as_str()).collect();
+    assert_eq!(
+        names,
+        [
+            "4_NONE_intact",
+            "4_L1_damaged",
+            "4_L1_transient",
+            "4_L2_damaged",
+            "4_L2_transient",
+            "4_L3_damaged",
+            "4_L3_transient",
+            "4_L1+L2_damaged",
+            "4_L1+L2_transient",
+            "4_L1+L3_damaged",
+            "4_L1+L3_transient",
+            "4_L2+L3_damaged",
+            "4_L2+L3_transient",
+        ]
+    );
+    let case = |name: &str| table.cases.iter().find(|case| case.name == name).unwrap();
+    assert_eq!(case("9_L1+L3_transient").intact.as_deref(), Some("9_NONE_intact"));
+    assert_eq!(case("9_L1+L3_damaged").intact, None);
+    assert_eq!(case("4_NONE_intact").peaks_of, ["L1", "L2", "L3"]);
+    let lost = case("4_L1+L3_damaged").lost.as_ref().unwrap();
+    assert_eq!((lost.variable().as_str(), lost.condition), ("L1 L3", MooringCondition::Damaged));
+    // of a table without conditions, lines lost are damage
+    let table = CaseTable::parse("cases.csv", "case,LOST\nA,none\nB,L1+L2\n", 1, MOST_CASES).unwrap();
+    let conditions: Vec<_> = table.cases.iter().map(|case| case.lost.as_ref().unwrap().condition).collect();
+    assert_eq!(conditions, [MooringCondition::Intact, MooringCondition::Damaged]);
+}
+
+#[test]
 fn rows_of_csv_keep_their_order_and_seeds_go_by_name() {
     let first = CaseTable::parse("cases.csv", "case,HS\r\nB,2\r\nA,\"3\"\r\n", 5, MOST_CASES).unwrap();
     let second = CaseTable::parse("cases.csv", "HS,case\n3,A\n9,C\n2,B\n", 5, MOST_CASES).unwrap();
@@ -70,6 +110,25 @@ fn wrong_tables_say_where_and_what() {
             "cases.csv:2: column case: `../A` cannot name a case: letters, digits and _ - + ., 80 at most, not a . first",
         ),
         ("case,HS\nA,%X%\n", "cases.csv:2: column HS: `%X%` has `%`, which a record reads as something else"),
+        (
+            "case,lost\nA,L1 L2\n",
+            "cases.csv:2: column lost: `L1 L2` is no list of lines: NONE, or names with + between them",
+        ),
+        ("case,lost\nA,L1+l1\n", "cases.csv:2: column lost: `L1+l1` names l1 twice"),
+        (
+            "case,lost,condition\nA,L1,broken\n",
+            "cases.csv:2: column condition: `broken` is no condition: intact, damaged or transient",
+        ),
+        (
+            "case,lost,condition\nA,NONE,damaged\n",
+            "cases.csv:2: column condition: damaged does not go with `NONE` of lost",
+        ),
+        (
+            "case,HS,lost,condition,seed\nA,1,NONE,intact,3\nB,1,L1,transient,4\n",
+            "cases.csv:3: column condition: there is no intact case with the same seed whose other columns are the same: seed_of \
+             gives cases the same seas",
+        ),
+        ("case,stiffness\nA,2\n", "cases.csv:2: column stiffness: `2` is no stiffness: lower, upper or dynamic"),
         ("case,member\nA,-1\n", "cases.csv:2: column member: `-1` is not a whole number from 0 on"),
     ] {
         assert_eq!(said("cases.csv", text), wanted);
@@ -85,6 +144,22 @@ fn wrong_tables_say_where_and_what() {
         (
             "case = \"{HS}\"\n[grid]\nHS = [1]\n[[exclude]]\nTP = 1\n",
             "cases.toml: column TP: [[exclude]] names no list; there are HS",
+        ),
+        (
+            "case = \"{HS}\"\n[grid]\nHS = [1]\n[lost]\nlines = [\"A\"]\nat_once = [2]\n",
+            "cases.toml: column lost: at_once loses 2 of 1 lines",
+        ),
+        (
+            "case = \"{HS}\"\n[grid]\nHS = [1]\n[lost]\nlines = [\"A\"]\nconditions = [\"intact\"]\n",
+            "cases.toml: column lost: `intact` of conditions is neither damaged nor transient",
+        ),
+        (
+            "case = \"{HS}\"\n[grid]\nHS = [1]\n[lost]\nlines = [\"A\"]\nat_once = [1]\nconditions = [\"transient\"]\n",
+            "cases.toml: column lost: a transient case follows an intact one: at_once = [0, ..]",
+        ),
+        (
+            "case = \"{lost}\"\n[grid]\nlost = [1]\n[lost]\nlines = [\"A\"]\n",
+            "cases.toml: column LOST: it stands twice, in [lost] and in a list",
         ),
         ("case = \"{HS}\"\n[grid]\nHS = [true]\n", "cases.toml: column HS: a value is a number or a text"),
     ] {

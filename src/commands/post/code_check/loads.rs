@@ -4,6 +4,7 @@ use super::{CHARACTERISTIC, CheckQuery, Checked, DURATION, is_spare};
 use crate::commands::name_filter::NameFilter;
 use crate::commands::post::prcpost::{asked_behind_transient, connectors, last_run};
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::line_loss::check_damaged_start;
 use crate::commands::{Call, Job};
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -36,6 +37,8 @@ pub(super) struct SegmentLoad {
     pub characteristic: f64,
     /// Largest of the record.
     pub largest: f64,
+    /// Least of the record.
+    pub least: f64,
     /// What the characteristic tension is.
     pub method: &'static str,
     /// Maxima it is estimated from; none of a line at rest.
@@ -106,6 +109,12 @@ pub(super) fn of_run(job: &Job, call: &Call, query: &CheckQuery) -> Checked {
         (false, true) => Condition::Damaged,
         (true, true) => Condition::Intact,
     };
+    if condition == Condition::Damaged {
+        check_damaged_start(job, run, &lost.before).map_err(|text| {
+            Diagnostic::error(text, span)
+                .help("TDOM -EQUI begins at rest, and &EQUI before TDOM does, both behind &CONNECTOR -INACTIVE")
+        })?;
+    }
     let lost: Vec<String> = lost.before.into_iter().chain(lost.during).collect();
     let named = !args.data.is_empty();
     let mut links = connectors(job, run, call)?;
@@ -181,6 +190,7 @@ fn characteristic(
         mean,
         characteristic: largest.max(mean),
         largest,
+        least: moments.minimum.1,
         method: "largest",
         maxima: Some(maxima.len()),
         mpm: None,
@@ -230,6 +240,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
             mean: tension,
             characteristic: tension,
             largest: tension,
+            least: tension,
             method: "at rest",
             maxima: None,
             mpm: None,

@@ -16,7 +16,7 @@ use windlass_design_checks::strength::corroded;
 use windlass_design_checks::tension::{LineTension, TensionCheck, check_tension};
 use windlass_design_checks::{CheckError, Verdict};
 use windlass_solve::results::{AnchorRecord, ScatterExposure};
-use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, MooringCondition};
+use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, LossTime, MooringCondition};
 
 /// What stands before the title of a table whose factors are not confirmed.
 const UNCONFIRMED_TITLE: &str = "UNCONFIRMED: ";
@@ -479,10 +479,17 @@ impl KeptRows<'_> {
                 Condition::Transient => MooringCondition::Transient,
             },
             lost: mooring.lost.clone(),
+            loss: self
+                .job
+                .line_loss
+                .as_ref()
+                .filter(|_| mooring.condition == Condition::Transient)
+                .map(|loss| LossTime { number: loss.number, time: loss.time, reason: loss.reason.clone() }),
             mean_tension: finite(row.load.mean),
             dynamic_tension: finite(row.load.characteristic - row.load.mean),
             max_tension: finite(row.load.characteristic),
             largest_tension: finite(row.load.largest),
+            least_tension: finite(row.load.least),
             maxima: row.load.maxima,
             mpm: mpm.map(|(value, _)| value),
             mpm_low: mpm.map(|(_, (low, _))| low),
