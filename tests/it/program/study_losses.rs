@@ -156,6 +156,17 @@ fn damaged_case_that_begins_intact_fails() {
     fs::write(here.join("cart.cif"), cart(&LOSSES.replace("-TIME 60 0.05 5", "-TIME 80 0.05 60"))).unwrap();
     let (code, out, _) = windlass(here, &["study", "cases.csv", "cart.cif", "--out", "S", "--retry-failed"]);
     assert_eq!(code, Some(0), "{out}");
+    // at rest: at x = 0 all that L1 has pulled is unbalanced
+    for (record, warned) in [("", true), ("&EQUI\n", false)] {
+        let script = format!("&CONNECTOR %LOST% -INACTIVE\n{record}CONN_DESIGN\nCODE_CHECK -CODE API_RP_2SK_3\nEND\n");
+        fs::write(here.join("still.cif"), cart(&script)).unwrap();
+        fs::write(here.join("lost.csv"), "case,LOST\nA,L1\n").unwrap();
+        let out = format!("still{}", record.len());
+        assert_eq!(windlass(here, &["study", "lost.csv", "still.cif", "--out", &out]).0, Some(0));
+        let results = Cells::read(&here.join(out).join("results.csv"));
+        let message = results.column("messages")[0];
+        assert_eq!(message.contains("do not rest where they stand without L1: 100 per cent"), warned, "{message}");
+    }
     // a script that takes no line away, or another one
     for (record, found) in
         [("", "intact with no line lost"), ("&CONNECTOR L2 -INACTIVE\n&EQUI\n", "damaged with L2 lost")]

@@ -15,6 +15,7 @@ use windlass_design_checks::limits::{distance, distance_to_panels};
 use windlass_model::{Body, Condition as Configuration, EntityKind, FatigueSegment, Idealisation, Model, find};
 use windlass_signal::extremes::Weibull;
 use windlass_signal::{SeriesError, statistics};
+use windlass_solve::line_loss::{BALANCED_SHARE, unbalanced_share};
 use windlass_solve::results::{
     self, AnchorRecord, PathPoint, RunEvent, body_panels, body_panels_at, is_mooring_line, line_records, lost_lines,
     path_at, place_at, segment_tensions, static_path,
@@ -66,6 +67,8 @@ pub(super) struct CheckedMooring {
     /// Why no most probable maximum was found, and the segments concerned.
     pub without_mpm: Vec<(String, Vec<String>)>,
     pub is_run: bool,
+    /// Share of what the lost lines pull that is unbalanced where the bodies stand, of a state without lines in which they do not rest.
+    pub unbalanced: Option<f64>,
     /// Instants of the run that are checked.
     pub events: Vec<RunEvent>,
     /// Time that maxima are sought in (s).
@@ -158,7 +161,17 @@ pub(super) fn of_run(job: &Job, call: &Call, query: &CheckQuery) -> Checked {
         }
         lines.push(CheckedLine { name: record.name, segments, anchor: record.anchor, grounded: record.grounded });
     }
-    Ok(CheckedMooring { analysis, condition, lost, lines, without_mpm, is_run: true, events: instants, duration })
+    Ok(CheckedMooring {
+        analysis,
+        condition,
+        lost,
+        lines,
+        without_mpm,
+        is_run: true,
+        unbalanced: None,
+        events: instants,
+        duration,
+    })
 }
 
 fn no_line(query: &CheckQuery) -> Box<Diagnostic> {
@@ -259,6 +272,8 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
         return Err(no_line(query));
     }
     let analysis = Analysis::QuasiStatic;
+    // what has no balance of forces has no rest that it could be away from
+    let unbalanced = unbalanced_share(model, &lost).ok().filter(|share| !lost.is_empty() && *share > BALANCED_SHARE);
     Ok(CheckedMooring {
         analysis,
         condition,
@@ -266,6 +281,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
         lines,
         without_mpm: Vec::new(),
         is_run: false,
+        unbalanced,
         events: Vec::new(),
         duration: 0.0,
     })

@@ -114,6 +114,14 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
     if bare {
         lines.warn("a breaking load follows from a bare diameter: give it (-BTEN, a line type) before a design is judged by it");
     }
+    if let Some(share) = mooring.unbalanced {
+        lines.warn(format!(
+            "the bodies do not rest where they stand without {}: {:.0} per cent of what is lost there is unbalanced; &EQUI behind \
+             &CONNECTOR -INACTIVE brings them to rest",
+            mooring.lost.join(", "),
+            100.0 * share
+        ));
+    }
     for (reason, segments) in &mooring.without_mpm {
         lines.warn(format!(
             "{}: the largest tension of the run is checked in place of the most probable maximum of the storm, which may be \
