@@ -1,6 +1,7 @@
 //! What a script keeps of a case: named results and rows of lines.
 
 use serde::{Deserialize, Serialize};
+use std::cmp::Reverse;
 
 /// Longest name of a result.
 const MAX_NAME: usize = 80;
@@ -177,7 +178,7 @@ pub struct LineRow {
     pub lost: Vec<String>,
     /// When they were lost, of a transient case.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub loss: Option<LossTime>,
+    pub loss: Option<Box<LossTime>>,
     /// Mean tension (N).
     pub mean_tension: Option<f64>,
     /// Dynamic part of the characteristic tension: the characteristic value less the mean (N).
@@ -243,9 +244,8 @@ impl LineRow {
     /// Takes the place of this row where another of its segment is nearer to its limit; of anchor, offset and length on the bottom the
     /// worse of the two is kept.
     pub fn take_severer(&mut self, mut other: LineRow) {
-        let order = |row: &LineRow| {
-            row.severity().map_or((std::cmp::Reverse(None), 0.0), |(kind, v)| (std::cmp::Reverse(Some(kind)), v))
-        };
+        // the surest kind first, and any before none
+        let order = |row: &LineRow| row.severity().map_or((None, 0.0), |(kind, value)| (Some(Reverse(kind)), value));
         let ((kind, value), (other_kind, other_value)) = (order(self), order(&other));
         if other_kind.cmp(&kind).then(other_value.total_cmp(&value)).is_gt() {
             std::mem::swap(self, &mut other);
@@ -307,5 +307,45 @@ impl Kept {
     /// The named results, in the order of the script.
     pub fn results(&self) -> &[KeptResult] {
         &self.results
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn severer_row_takes_the_place_and_extremes_of_both_stay() {
+        let row = |utilisation, largest, grounded, anchor| LineRow {
+            utilisation: Some(utilisation),
+            largest_tension: Some(largest),
+            grounded_length: Some(grounded),
+            anchor_horizontal: Some(anchor),
+            ..LineRow::default()
+        };
+        for (mut first, second) in [
+            (row(0.5, 10.0, 40.0, 3.0), row(0.7, 9.0, 60.0, 2.0)),
+            (row(0.7, 9.0, 60.0, 2.0), row(0.5, 10.0, 40.0, 3.0)),
+        ] {
+            first.take_severer(second);
+            assert_eq!(first, row(0.7, 10.0, 40.0, 3.0));
+        }
+        // a row that is checked goes before one that is not
+        let mut bare = LineRow { max_tension: Some(99.0), ..LineRow::default() };
+        bare.take_severer(LineRow { utilisation: Some(0.1), max_tension: Some(1.0), ..LineRow::default() });
+        assert_eq!((bare.utilisation, bare.max_tension), (Some(0.1), Some(1.0)));
+        bare.take_severer(LineRow::default());
+        assert_eq!(bare.utilisation, Some(0.1));
+    }
+
+    #[test]
+    fn least_result_takes_the_smaller_value() {
+        let result = |value| KeptResult::new("C", value, "m").unwrap();
+        let (mut largest, mut least) = (result(4.0), result(4.0).least());
+        for value in [3.0, 5.0] {
+            largest.take_extreme(&result(value));
+            least.take_extreme(&result(value));
+        }
+        assert_eq!((largest.value, least.value), (5.0, 3.0));
     }
 }

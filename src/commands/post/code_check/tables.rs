@@ -492,7 +492,8 @@ impl KeptRows<'_> {
                 .line_loss
                 .as_ref()
                 .filter(|_| mooring.condition == Condition::Transient)
-                .map(|loss| LossTime { number: loss.number, time: loss.time, reason: loss.reason.clone() }),
+                .map(|loss| LossTime { number: loss.number, time: loss.time, reason: loss.reason.clone() })
+                .map(Box::new),
             mean_tension: finite(row.load.mean),
             dynamic_tension: finite(row.load.characteristic - row.load.mean),
             max_tension: finite(row.load.characteristic),
