@@ -434,9 +434,7 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
             made.results = session.job.kept.results().to_vec();
             made.lines = std::mem::take(&mut session.job.kept.lines);
             made.read = session.job.output.folder.files_read();
-            if let (Some(run), false) = (&session.job.run, input.peaks_of.is_empty()) {
-                made.peaks = line_peaks(run, &session.job.model, &input.peaks_of);
-            }
+            made.peaks = line_peaks(session.job.run.as_ref(), &session.job.model, &input.peaks_of);
             made.instants = session.job.line_loss.as_ref().map_or(0, |loss| loss.count);
         }
     }

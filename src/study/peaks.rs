@@ -10,12 +10,16 @@ use windlass_study::record::{LinePeaks, Peak};
 /// Most maxima of the tension of a line that are kept.
 const MOST_MAXIMA: usize = 60;
 
-/// The peaks of lines of a run behind its transient. Offsets are from where `model` has the bodies. Lines that do not act all the time
-/// have none.
-pub(super) fn line_peaks(run: &Run, model: &Model, lines: &[String]) -> Vec<LinePeaks> {
-    let lost = lost_lines(run);
-    let acts = |line: &&String| !lost.before.iter().chain(&lost.during).any(|name| name.eq_ignore_ascii_case(line));
-    lines.iter().filter(acts).filter_map(|line| peaks_of(run, model, line)).collect()
+/// The peaks of lines of a run behind its transient. Offsets are from where `model` has the bodies. Those of a line that the run does not
+/// have, or that does not act all the time, are empty.
+pub(super) fn line_peaks(run: Option<&Run>, model: &Model, lines: &[String]) -> Vec<LinePeaks> {
+    let lost = run.map(lost_lines).unwrap_or_default();
+    let acts = |line: &str| !lost.before.iter().chain(&lost.during).any(|name| name.eq_ignore_ascii_case(line));
+    let peaks = |line: &String| {
+        let found = run.filter(|_| acts(line)).and_then(|run| peaks_of(run, model, line));
+        found.unwrap_or_else(|| LinePeaks { line: line.clone(), tension: Vec::new(), offset: None })
+    };
+    lines.iter().map(peaks).collect()
 }
 
 fn peaks_of(run: &Run, model: &Model, line: &str) -> Option<LinePeaks> {

@@ -246,7 +246,7 @@ fn instants(peaks: &[LinePeaks], lines: &[String], more: usize, apart: f64) -> R
         let found = peaks.iter().find(|peaks| peaks.line.eq_ignore_ascii_case(line));
         let Some((found, largest)) = found.and_then(|found| Some((found, found.tension.first()?))) else {
             return Err(format!(
-                "the intact case has kept no tension of {line}: its column lost names what a transient case loses"
+                "the intact case has kept no tension of {line}: its script runs no TDOM with this line, or the column lost does not name it"
             ));
         };
         if made.iter().all(|known| known.time != largest.time) {

@@ -134,6 +134,25 @@ fn line_is_lost_at_its_own_peak_and_at_the_largest_offset() {
 }
 
 #[test]
+fn transient_case_of_unknown_line_fails_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    fs::write(here.join("cart.cif"), cart(LOSSES)).unwrap();
+    let table = "case,BEGIN,LOST,CONDITION,seed_of\nintact,ASIS,NONE,intact,sea\ncut,ASIS,L9,transient,sea\n";
+    fs::write(here.join("cases.csv"), table).unwrap();
+    let study = || windlass(here, &["study", "cases.csv", "cart.cif", "--out", "S"]);
+    let (code, out, _) = study();
+    assert!(code == Some(1) && out.contains("cut failed: cart.cif:") && out.contains("unknown connector L9"), "{out}");
+    let (code, out, _) = study();
+    assert!(code == Some(1) && out.contains("2 were done before"), "{out}");
+    // a script without a run has no instants
+    fs::write(here.join("still.cif"), cart("&SET B = %BEGIN% %LOST%\n&IF %CONDITION% .EQ. TRANSIENT &THEN\n&ENV E -TIME 9 0.1\nTDOM -LOSE L1\n&ENDIF\n")).unwrap();
+    fs::write(here.join("cases.csv"), table.replace("L9", "L1")).unwrap();
+    let (code, out, _) = windlass(here, &["study", "cases.csv", "still.cif", "--out", "T"]);
+    assert!(code == Some(1) && out.contains("the intact case has kept no tension of L1"), "{out}");
+}
+
+#[test]
 fn damaged_case_that_begins_intact_fails() {
     let folder = tempfile::tempdir().unwrap();
     let here = folder.path();
