@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""MoorPy 1.3.0 over the semi of scripts/study, intact and with each line lost: python3 benches/moorpy_semi.py > tests/data/moorpy_semi.csv
+"""MoorPy 1.3.0 over the semi of scripts/study, intact, with each line lost and with some pairs (12: L1 and L2): python3 benches/moorpy_semi.py > tests/data/moorpy_semi.csv
 
 In an environment that has moorpy==1.3.0, as .ci/peers makes it. The body is free in surge, sway and yaw and held in heave, roll and
 pitch, so that its hydrostatics take no part; a force of 5 MN acts at its origin toward each of eight headings. Chains are those of
@@ -23,6 +23,7 @@ import numpy as np
 RHO, G = 1025.0, 9.80665
 SECTION = math.pi / 4 * 0.18**2
 FAIRLEADS = [(45, 37), (40, 38), (-40, 38), (-45, 37), (-45, -37), (-40, -38), (40, -38), (45, -37)]
+PAIRS = [(1, 2), (1, 8), (3, 6), (4, 5)]
 TOWARD = [30, 60, 120, 150, 210, 240, 300, 330]
 DISTANCE, LENGTH, LOAD = 1114.4, 1200.0, 5e6
 
@@ -33,7 +34,7 @@ def system(lost):
     made.addBody(0, np.zeros(6), m=0.0, v=0.0, DOFs=[0, 1, 5])
     body = made.bodyList[0]
     for line, ((x, y), angle) in enumerate(zip(FAIRLEADS, TOWARD)):
-        if line + 1 == lost:
+        if line + 1 in lost:
             continue
         made.addPoint(1, [x + DISTANCE * math.cos(math.radians(angle)), y + DISTANCE * math.sin(math.radians(angle)), -300.0])
         anchor = len(made.pointList)
@@ -47,7 +48,7 @@ def system(lost):
 def main():
     out = csv.writer(sys.stdout, lineterminator="\n")
     out.writerow(["lost", "toward_deg", "X_m", "Y_m", "yaw_rad"] + [f"L{n}_N" for n in range(1, 9)] + ["left_N"])
-    for lost in range(9):
+    for lost in [()] + [(n,) for n in range(1, 9)] + PAIRS:
         made, body = system(lost)
         with open(os.devnull, "w") as nowhere, contextlib.redirect_stdout(nowhere):
             made.initialize()
@@ -58,11 +59,11 @@ def main():
                 for tol in (1e-2, 1e-5, 1e-7):
                     made.solveEquilibrium(DOFtype="free", tol=tol, maxIter=2000)
             tensions = [line.TB for line in made.lineList]
-            if lost:
-                tensions.insert(lost - 1, 0.0)
+            for line in lost:
+                tensions.insert(line - 1, 0.0)
             forces = body.getForces(all_DOFs=True)
             left = max(abs(forces[0]), abs(forces[1]), abs(forces[5]))
-            out.writerow([f"{v:.10g}" for v in [lost, toward, body.r6[0], body.r6[1], body.r6[5], *tensions, left]])
+            out.writerow([f"{v:.10g}" for v in [int("".join(map(str, lost)) or 0), toward, body.r6[0], body.r6[1], body.r6[5], *tensions, left]])
 
 
 if __name__ == "__main__":
