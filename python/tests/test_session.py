@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -224,6 +225,30 @@ def test_module_is_the_program(tmp_path):
     assert done.stdout.startswith("windlass ")
     wrong = subprocess.run([*program, "-c", "NONSENSE"], capture_output=True, text=True, cwd=tmp_path)
     assert wrong.returncode == 1 and "NONSENSE" in wrong.stderr
+
+
+def test_ensembles_of_a_study_are_read_with_fits_of_scipy(tmp_path):
+    # maxima and scipy's fits of them: crates/signal/tests/data/ensemble.py and .csv
+    data = Path(__file__).resolve().parents[2] / "crates/signal/tests/data/ensemble.csv"
+    row = next(line for line in data.read_text().splitlines() if line.startswith("tension10,"))
+    scipy = [float(cell) for cell in row.split(",")[1:]]
+    maxima = [5210.0, 4987.5, 5534.2, 5105.8, 5078.4, 5391.0, 5640.7, 5012.3, 5166.9, 5288.6]
+    (tmp_path / "cases.csv").write_text("case,member\n" + "".join(f"storm{n},{n}\n" for n in range(1, 11)))
+    tokens = " ".join(map(str, maxima))
+    (tmp_path / "model.cif").write_text(f"&SET T = &TOKEN(%MEMBER% {tokens})\n&RESULT T %T% -UNIT kN\n")
+    made = windlass.study.run(tmp_path / "cases.csv", tmp_path / "model.cif", tmp_path / "out", jobs=1)
+    ensembles = made.ensembles
+    assert ensembles["result"].tolist() == ["T"] and ensembles["unit"].tolist() == ["kN"]
+    assert ensembles["count"].tolist() == [10] and ensembles["largest"].tolist() == [5640.7]
+    found = [ensembles[name][0] for name in ("mean", "standard_deviation", "moments_location", "moments_scale")]
+    assert np.allclose(found, scipy[1:5], rtol=1e-9)
+    assert ensembles["moments_mpm_low"][0] < ensembles["moments_mpm"][0] < ensembles["moments_mpm_high"][0]
+    assert np.isclose(ensembles["likelihood_location"][0], scipy[5], rtol=1e-6)
+    assert len(ensembles.to_pandas()) == 1
+    # without two cases of one sea there is none
+    (tmp_path / "one.csv").write_text("case,member\nstorm1,1\n")
+    alone = windlass.study.run(tmp_path / "one.csv", tmp_path / "model.cif", tmp_path / "alone")
+    assert len(alone.results) == 1 and alone.ensembles.names == []
 
 
 def test_study_is_run_and_read_as_tables(tmp_path):

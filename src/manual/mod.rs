@@ -1,9 +1,12 @@
 //! The pages of the manual that are made from the declarations: every command, option, class, function and report, and the
 //! state of every record of MOSES. `windlass manual DIR` writes them, and the copy in `docs/` is held to them by a test.
 
+mod grammar;
 pub(crate) mod markdown;
 mod moses;
 mod reference;
+
+pub use grammar::{GRAMMAR_FILE, build_grammar};
 
 /// A page.
 #[derive(Clone, Debug, PartialEq)]

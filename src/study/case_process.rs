@@ -84,6 +84,7 @@ impl CaseProgram {
 pub struct Processes {
     program: CaseProgram,
     model: PathBuf,
+    begun_in: Option<PathBuf>,
     threads: usize,
     hashes: Mutex<HashMap<PathBuf, Option<(u64, String)>>>,
 }
@@ -95,7 +96,13 @@ impl Processes {
     /// What the system says of the program's own file.
     pub fn new(model: &Path, threads: usize, program: Option<&CaseProgram>) -> std::io::Result<Self> {
         let program = program.map_or_else(CaseProgram::of_this_process, |program| Ok(program.clone()))?;
-        Ok(Processes { program, model: model.to_path_buf(), threads, hashes: Mutex::default() })
+        Ok(Processes { program, model: model.to_path_buf(), begun_in: None, threads, hashes: Mutex::default() })
+    }
+
+    /// The same with files named from another folder than the present one, where that is there.
+    pub fn begun_in(mut self, folder: &str) -> Self {
+        self.begun_in = Some(PathBuf::from(folder)).filter(|folder| folder.is_absolute() && folder.is_dir());
+        self
     }
 
     /// Size and hash of a file, found once in a study; none of one that cannot be read.
@@ -105,7 +112,10 @@ impl Processes {
         {
             return found.clone();
         }
-        let found = hash_file(path).ok();
+        let found = match &self.begun_in {
+            Some(folder) => hash_file(&folder.join(path)).ok(),
+            None => hash_file(path).ok(),
+        };
         if let Ok(mut known) = self.hashes.lock() {
             known.insert(path.to_path_buf(), found.clone());
         }
@@ -113,7 +123,11 @@ impl Processes {
     }
 
     fn start(&self, input: &CaseInput) -> std::io::Result<std::process::Output> {
-        let mut child = Command::new(&self.program.file)
+        let mut command = Command::new(&self.program.file);
+        if let Some(folder) = &self.begun_in {
+            command.current_dir(folder);
+        }
+        let mut child = command
             .args(&self.program.arguments)
             .arg(CASE_COMMAND)
             .env("RAYON_NUM_THREADS", self.threads.to_string())

@@ -3,8 +3,10 @@
 mod case_process;
 mod ensembles;
 mod parquet_table;
+mod parts;
 mod peaks;
 pub mod report;
+mod slurm;
 mod tables;
 mod variables;
 
@@ -12,6 +14,7 @@ pub use case_process::{CASE_COMMAND, CaseProgram, run_one};
 pub use tables::StudyTables;
 
 use self::case_process::Processes;
+use self::slurm::SlurmOptions;
 use crate::report::files::read_regular;
 use clap::ValueEnum;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -20,8 +23,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use windlass_base::printable::printable;
+use windlass_study::parts::newest_division;
 use windlass_study::record::CaseStatus;
-use windlass_study::runner::{Keep, Progress, RunCase, StudyPlan, run_study};
+use windlass_study::runner::{Keep, Progress, RunCase, StudyEnd, StudyPlan, run_study};
 use windlass_study::store::{Files, Study, StudyError, SystemFiles};
 use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
@@ -39,9 +43,13 @@ rows of lines.csv. The same command again goes on where the study was stopped, a
 
     windlass study cases.csv model.cif --out DIR
     windlass study rerun DIR CASE            makes the answers of a case again, in DIR/rerun/CASE
+    windlass study cases.csv model.cif --out DIR --slurm --partition=long --time=2:00:00
+    windlass study cases.csv model.cif --out DIR --parts 20
+    windlass study part DIR 7                runs the seventh of these parts, on any machine that sees DIR
+    windlass study collect DIR               makes the tables when the parts are over
 
 Exit codes:
-  0    all cases are done
+  0    all cases are done; with --slurm or --parts: they are submitted or divided
   1    a case has failed, or a file cannot be read or written
   2    wrong use of the command line, or a table that is wrong: no case is run
   130  interrupted; the cases that are done stay done";
@@ -77,6 +85,18 @@ pub struct StudyArgs {
     /// Run failed cases of an earlier start again
     #[arg(long)]
     pub retry_failed: bool,
+    /// Divide the cases into N parts and run none here: windlass study part DIR runs each, collect DIR makes the tables
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub parts: Option<u32>,
+    /// Submit the cases as a job array of Slurm; all that follows goes to sbatch, so that this is the last option
+    #[arg(long, value_name = "OPTIONS OF SBATCH", num_args = 0.., allow_hyphen_values = true)]
+    pub slurm: Option<Vec<String>>,
+    /// Minutes that a task of the array is to take [default: 30]
+    #[arg(long, value_name = "MINUTES", requires = "slurm", conflicts_with = "parts")]
+    pub pack: Option<f64>,
+    /// Cases that are run here first, to know their seconds, where none is measured yet [default: 8]
+    #[arg(long, value_name = "N", requires = "slurm", value_parser = clap::value_parser!(u16).range(1..))]
+    pub sample: Option<u16>,
     /// What runs the cases, where it is not this program.
     #[arg(skip)]
     pub program: Option<CaseProgram>,
@@ -91,6 +111,27 @@ pub enum StudyCommand {
         study: PathBuf,
         /// The name of the case
         case: String,
+    },
+    /// Run a part of a study that --slurm or --parts has divided
+    Part {
+        /// The folder of the study
+        study: PathBuf,
+        /// Number of the part, from 1
+        number: usize,
+        /// The start of the study that the parts are of [default: the newest]
+        #[arg(long, value_name = "N")]
+        start: Option<u64>,
+        /// Cases at a time [default: as many as the machine has cores]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        jobs: Option<u16>,
+    },
+    /// Make the tables of a study whose parts are over, and the answers of its governing cases
+    Collect {
+        /// The folder of the study
+        study: PathBuf,
+        /// Cases at a time [default: as many as the machine has cores]
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+        jobs: Option<u16>,
     },
 }
 
@@ -126,8 +167,16 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     let stopping = Arc::clone(&stop);
     // without the handler Ctrl-C ends the program; what is written stays whole
     let _ = ctrlc::set_handler(move || stopping.store(true, Ordering::Relaxed));
-    if let Some(StudyCommand::Rerun { study, case }) = &args.command {
-        return rerun((study, case), args.program.as_ref(), out, complain);
+    let program = args.program.as_ref();
+    match &args.command {
+        Some(StudyCommand::Rerun { study, case }) => return rerun((study, case), program, out, complain),
+        Some(StudyCommand::Part { study, number, start, jobs }) => {
+            return parts::run_part((study, *number, *start), jobs_or_cores(*jobs), program, &stop, out, complain);
+        }
+        Some(StudyCommand::Collect { study, jobs }) => {
+            return parts::collect(study, jobs_or_cores(*jobs), program, &stop, out, complain);
+        }
+        None => {}
     }
     let (Some(table), Some(model), Some(folder)) = (&args.table, &args.model, &args.out) else {
         complain("a study needs a table, a script and --out DIR");
@@ -149,9 +198,23 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
         complain(&unused);
         return StudyExit::Usage;
     }
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let jobs = args.jobs.map_or(cores, usize::from);
-    let processes = match Processes::new(model, (cores / jobs).max(1), args.program.as_ref()) {
+    let slurm = match args.slurm.as_deref().map(SlurmOptions::new).transpose() {
+        Ok(slurm) => slurm,
+        Err(error) => {
+            complain(&format!("--slurm: {error}"));
+            return StudyExit::Usage;
+        }
+    };
+    if let Some(pack) = args.pack.filter(|minutes| !(minutes.is_finite() && *minutes > 0.0)) {
+        complain(&format!("--pack {pack}: minutes above zero"));
+        return StudyExit::Usage;
+    }
+    if let Some(job) = slurm::find_running(folder) {
+        complain(&format!("{}: job {job} of Slurm is not over: wait for it, or scancel {job}", folder.display()));
+        return StudyExit::Usage;
+    }
+    let jobs = jobs_or_cores(args.jobs);
+    let processes = match Processes::new(model, threads_of_each(jobs), program) {
         Ok(processes) => processes,
         Err(error) => {
             complain(&format!("no process can be started: {error}"));
@@ -175,43 +238,83 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
         },
         retry_failed: args.retry_failed,
     };
+    if slurm.is_some() || args.parts.is_some() {
+        return parts::distribute(args, &plan, slurm.as_ref(), &processes, &stop, out, complain);
+    }
     let bar = progress_bar();
-    let told = |progress: Progress| {
-        bar.set_length(progress.total as u64);
-        bar.set_position(progress.finished as u64);
-        bar.set_message(format!("{} failed", progress.failed));
-    };
-    let ended = run_study(&plan, &SystemFiles, &processes, &stop, &told);
+    let ended = run_study(&plan, &SystemFiles, &processes, &stop, &|progress| tell(&bar, progress));
     bar.finish_and_clear();
     let ended = match ended {
         Ok(ended) => ended,
-        Err(error) => {
-            complain(&error.to_string());
-            return if matches!(error, StudyError::Folder { .. }) { StudyExit::Usage } else { StudyExit::Failed };
-        }
+        Err(error) => return refused(&error, complain),
     };
-    let written = Study::open(folder).map_err(|e| e.to_string()).and_then(|study| {
-        tables::write(&study, folder, &SystemFiles).map_err(|e| format!("{}: {e}", folder.display()))?;
-        Ok(study)
-    });
-    let study = match written {
-        Ok(study) => study,
+    // what parts have run keeps no answers of governing cases before the parts are over
+    let has_parts = newest_division(folder).is_ok_and(|start| start.is_some());
+    let study = if has_parts && !stop.load(Ordering::Relaxed) {
+        parts::finish(folder, plan.keep, jobs, &processes, &stop)
+    } else {
+        write_tables(folder)
+    };
+    match study {
+        Ok(study) => report_end(&study, &ended, folder, out),
         Err(error) => {
             complain(&error);
-            return StudyExit::Failed;
+            StudyExit::Failed
         }
-    };
-    let text = summary(&study, &plan, &ended);
-    // a reader that has gone wants no more of it
-    let _ = out.write_all(printable(&text).replace("\\u{a}", "\n").as_bytes()).and_then(|()| out.flush());
-    let left = plan.table.cases.len() > study.records.len().min(ended.kept + ended.progress.finished);
-    if left {
+    }
+}
+
+/// A number of things, by their name.
+fn counted(number: usize, name: &str) -> String {
+    format!("{number} {name}{}", if number == 1 { "" } else { "s" })
+}
+
+fn jobs_or_cores(jobs: Option<u16>) -> usize {
+    jobs.map_or_else(|| std::thread::available_parallelism().map_or(1, usize::from), usize::from)
+}
+
+/// Threads of each of so many cases at a time.
+fn threads_of_each(jobs: usize) -> usize {
+    (std::thread::available_parallelism().map_or(1, usize::from) / jobs).max(1)
+}
+
+/// The exit of an error.
+fn refused(error: &StudyError, complain: &dyn Fn(&str)) -> StudyExit {
+    complain(&error.to_string());
+    if matches!(error, StudyError::Folder { .. }) { StudyExit::Usage } else { StudyExit::Failed }
+}
+
+/// Shows how far a study is.
+fn tell(bar: &ProgressBar, progress: Progress) {
+    bar.set_length(progress.total as u64);
+    bar.set_position(progress.finished as u64);
+    bar.set_message(format!("{} failed", progress.failed));
+}
+
+/// Writes the tables of a study as it stands in its folder.
+fn write_tables(folder: &Path) -> Result<Study, String> {
+    let study = Study::open(folder).map_err(|e| e.to_string())?;
+    tables::write(&study, folder, &SystemFiles).map_err(|e| format!("{}: {e}", folder.display()))?;
+    Ok(study)
+}
+
+/// Prints what came of a start; the exit.
+fn report_end(study: &Study, ended: &StudyEnd, folder: &Path, out: &mut impl Write) -> StudyExit {
+    let left = study.info.cases.len().saturating_sub(ended.kept + ended.progress.finished);
+    let text = summary(study, (left, ended), folder);
+    print(out, &text);
+    if left > 0 {
         StudyExit::Interrupted
     } else if study.count(CaseStatus::Failed) > 0 {
         StudyExit::Failed
     } else {
         StudyExit::Done
     }
+}
+
+/// Prints lines of text; a reader that has gone wants no more of it.
+fn print(out: &mut impl Write, text: &str) {
+    let _ = out.write_all(printable(text).replace("\\u{a}", "\n").as_bytes()).and_then(|()| out.flush());
 }
 
 /// The tables of a study as it stands in its folder.
@@ -246,16 +349,30 @@ fn progress_bar() -> ProgressBar {
     bar
 }
 
-/// What came of it, in a few lines.
-fn summary(study: &Study, plan: &StudyPlan, ended: &windlass_study::runner::StudyEnd) -> String {
-    let (total, done) = (plan.table.cases.len(), study.count(CaseStatus::Done));
+/// What came of a start that has left so many cases, in a few lines.
+fn summary(study: &Study, (left, ended): (usize, &StudyEnd), folder: &Path) -> String {
+    let (total, done) = (study.info.cases.len(), study.count(CaseStatus::Done));
     let (over, failed) = (study.count(CaseStatus::Overloaded), study.count(CaseStatus::Failed));
     let mut text = format!("{total} cases: {done} done, {over} overloaded, {failed} failed");
-    let left = total.saturating_sub(ended.kept + ended.progress.finished);
     if left > 0 {
         text.push_str(&format!(", {left} left: the same command goes on"));
     }
     text.push('\n');
+    text.push_str(&earlier_cases(ended));
+    let wrong: Vec<_> = study.records.iter().filter(|record| record.status == CaseStatus::Failed).collect();
+    for record in wrong.iter().take(MOST_NAMED) {
+        text.push_str(&format!("   {} failed: {}\n", record.case, record.reason));
+    }
+    if wrong.len() > MOST_NAMED {
+        text.push_str(&format!("   and {} more failed: the column reason of results.csv\n", wrong.len() - MOST_NAMED));
+    }
+    text.push_str(&format!("   {}\n", folder.join(tables::RESULTS_CSV).display()));
+    text
+}
+
+/// What is said of cases of earlier starts.
+fn earlier_cases(ended: &StudyEnd) -> String {
+    let mut text = String::new();
     if ended.kept > 0 {
         text.push_str(&format!("   {} were done before\n", ended.kept));
     }
@@ -265,14 +382,6 @@ fn summary(study: &Study, plan: &StudyPlan, ended: &windlass_study::runner::Stud
     if ended.again.len() > MOST_NAMED {
         text.push_str(&format!("   and {} more were run again\n", ended.again.len() - MOST_NAMED));
     }
-    let wrong: Vec<_> = study.records.iter().filter(|record| record.status == CaseStatus::Failed).collect();
-    for record in wrong.iter().take(MOST_NAMED) {
-        text.push_str(&format!("   {} failed: {}\n", record.case, record.reason));
-    }
-    if wrong.len() > MOST_NAMED {
-        text.push_str(&format!("   and {} more failed: the column reason of results.csv\n", wrong.len() - MOST_NAMED));
-    }
-    text.push_str(&format!("   {}\n", plan.folder.join(tables::RESULTS_CSV).display()));
     text
 }
 

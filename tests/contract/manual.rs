@@ -24,6 +24,17 @@ fn made_pages_of_manual_are_those_of_declarations() {
 }
 
 #[test]
+fn grammar_of_editors_is_that_of_declarations() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(windlass::manual::GRAMMAR_FILE);
+    let made = windlass::manual::build_grammar();
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &made).unwrap();
+    }
+    let kept = fs::read_to_string(&path).unwrap_or_default();
+    assert!(kept == made, "{} is of other declarations: BLESS=1 cargo test --test contract", path.display());
+}
+
+#[test]
 fn every_command_stands_on_one_page_of_reference() {
     let pages = windlass::manual::build_pages();
     let heads: Vec<&str> =

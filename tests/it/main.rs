@@ -34,6 +34,7 @@ mod program {
     mod stored_run;
     mod study;
     mod study_losses;
+    mod study_parts;
     mod study_tables;
     mod table_vary;
     mod terminal;

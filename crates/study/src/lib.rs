@@ -20,6 +20,8 @@
 pub mod ensemble;
 pub mod kept;
 pub mod lost;
+pub mod packing;
+pub mod parts;
 pub mod record;
 pub mod runner;
 pub mod seeds;

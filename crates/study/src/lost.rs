@@ -2,6 +2,7 @@
 
 use crate::kept::MooringCondition;
 use crate::table::Case;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// The column of the lines that a case is without.
@@ -16,7 +17,7 @@ pub const NO_LINE: &str = "NONE";
 pub const BETWEEN_LINES: char = '+';
 
 /// Lines that a case is without, and how it lost them.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LostLines {
     /// Their names, as the cell has them.
     pub lines: Vec<String>,

@@ -3,6 +3,7 @@
 use crate::record::{CaseRecord, CaseStatus, FileRead};
 use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, results_file};
 use crate::table::{Case, CaseTable};
+use serde::{Deserialize, Serialize};
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -16,7 +17,8 @@ const SYNC_AFTER: Duration = Duration::from_secs(1);
 pub const MAX_FAILED_FOLDERS: usize = 200;
 
 /// Which cases keep the folder of their answers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Keep {
     /// None.
     Nothing,
@@ -137,7 +139,7 @@ const LOOK_AFTER: Duration = Duration::from_millis(100);
 
 /// The records of intact cases that transient ones follow.
 #[derive(Default)]
-struct Followed {
+pub(crate) struct Followed {
     /// Those that have ended; `None` of one that has been interrupted.
     ended: Mutex<HashMap<String, Option<Arc<CaseRecord>>>>,
     /// Names of those to wait for.
@@ -146,6 +148,13 @@ struct Followed {
 }
 
 impl Followed {
+    /// What cases that are to run can follow: those of them that have transient ones behind them, and the records of earlier ones.
+    pub(crate) fn new<'a>(pending: &[&Case], ended: impl Iterator<Item = &'a CaseRecord>) -> Self {
+        let ended = ended.map(|record| (record.case.clone(), Some(Arc::new(record.clone())))).collect();
+        let expected = pending.iter().map(|case| case.name.clone()).collect();
+        Followed { ended: Mutex::new(ended), expected, news: Condvar::new() }
+    }
+
     /// Takes up a case that has ended, where another follows it.
     fn end(&self, case: &Case, record: Option<&CaseRecord>) {
         if case.peaks_of.is_empty() {
@@ -171,31 +180,132 @@ impl Followed {
     }
 }
 
-/// What the workers share.
-struct Shared<'a> {
-    plan: &'a StudyPlan,
-    files: &'a dyn Files,
-    runner: &'a dyn RunCase,
-    pending: Vec<&'a Case>,
-    followed: Followed,
-    next: AtomicUsize,
-    stop: &'a AtomicBool,
-    start: u64,
-    state: Mutex<(Governing, Progress, Option<StudyError>)>,
-    told: &'a (dyn Fn(Progress) + Sync),
+/// A file of records, only ever added to.
+pub(crate) struct ResultsFile {
+    path: PathBuf,
+    /// When it was seen through to the disk, and whether more has been added since.
+    synced: Mutex<(Option<Instant>, bool)>,
 }
 
-/// Runs what is left of a study.
+impl ResultsFile {
+    pub(crate) fn new(path: PathBuf) -> Self {
+        ResultsFile { path, synced: Mutex::new((None, false)) }
+    }
+
+    /// Adds bytes, and sees them through to the disk where the last time was a second ago.
+    fn append(&self, bytes: &[u8], files: &dyn Files) -> Result<(), StudyError> {
+        let mut synced = self.synced.lock().unwrap_or_else(PoisonError::into_inner);
+        files.append(&self.path, bytes).map_err(StudyError::of(&self.path))?;
+        synced.1 = true;
+        if synced.0.is_none_or(|last| last.elapsed() >= SYNC_AFTER) {
+            files.sync(&self.path).map_err(StudyError::of(&self.path))?;
+            *synced = (Some(Instant::now()), false);
+        }
+        Ok(())
+    }
+
+    /// Sees what was added through to the disk.
+    fn sync(&self, files: &dyn Files) -> Result<(), StudyError> {
+        let mut synced = self.synced.lock().unwrap_or_else(PoisonError::into_inner);
+        if synced.1 {
+            files.sync(&self.path).map_err(StudyError::of(&self.path))?;
+            synced.1 = false;
+        }
+        Ok(())
+    }
+}
+
+/// Where a worker writes.
+pub(crate) struct Lane {
+    /// The file of its records. Workers may share one.
+    pub(crate) results: Arc<ResultsFile>,
+    /// The folder of the answers of the case that it runs.
+    pub(crate) running: PathBuf,
+}
+
+/// Cases to run side by side, a lane a worker.
+pub(crate) struct Batch<'a> {
+    pub(crate) columns: &'a [String],
+    pub(crate) pending: Vec<&'a Case>,
+    pub(crate) followed: Followed,
+    pub(crate) version: &'a str,
+    pub(crate) lanes: Vec<Lane>,
+    pub(crate) keep: Keep,
+    pub(crate) kept_cases: PathBuf,
+    /// Failed cases that keep the folder of their answers, unless all cases do.
+    pub(crate) max_failed: usize,
+    pub(crate) start: u64,
+    pub(crate) files: &'a dyn Files,
+    pub(crate) runner: &'a dyn RunCase,
+    pub(crate) stop: &'a AtomicBool,
+    pub(crate) told: &'a (dyn Fn(Progress) + Sync),
+}
+
+/// What the workers share.
+struct Shared<'a> {
+    batch: &'a Batch<'a>,
+    next: AtomicUsize,
+    state: Mutex<(Governing, Progress, Option<StudyError>)>,
+}
+
+impl Batch<'_> {
+    /// Runs the cases; `governing` has the values of those that are done.
+    ///
+    /// # Errors
+    /// Files that cannot be written; the cases that are done stay done.
+    fn run(&self, governing: Governing) -> Result<Progress, StudyError> {
+        let progress = Progress { total: self.pending.len(), ..Progress::default() };
+        let state = Mutex::new((governing, progress, None));
+        let shared = Shared { batch: self, next: AtomicUsize::new(0), state };
+        std::thread::scope(|scope| {
+            for lane in &self.lanes {
+                let shared = &shared;
+                scope.spawn(move || {
+                    if let Err(error) = work(shared, lane) {
+                        self.stop.store(true, Ordering::Relaxed);
+                        if let Ok(mut state) = shared.state.lock() {
+                            state.2.get_or_insert(error);
+                        }
+                    }
+                });
+            }
+        });
+        let (_, progress, error) = shared.state.into_inner().unwrap_or_else(PoisonError::into_inner);
+        error.map_or(Ok(progress), Err)
+    }
+
+    /// Runs the cases of which none governs anything before.
+    ///
+    /// # Errors
+    /// Files that cannot be written; the cases that are done stay done.
+    pub(crate) fn run_alone(&self) -> Result<Progress, StudyError> {
+        self.run(Governing::default())
+    }
+}
+
+/// A study that is begun or gone on with, before its cases are run.
+pub struct BegunStudy<'a> {
+    /// Number of this start.
+    pub start: u64,
+    /// Cases to run, in the order of the table, transient ones behind the others.
+    pub pending: Vec<&'a Case>,
+    /// The records of earlier starts.
+    pub records: Vec<CaseRecord>,
+    /// What was kept, and what is run again.
+    pub end: StudyEnd,
+    governing: Governing,
+    followed: Followed,
+}
+
+/// Begins a study or goes on with one: its folder, what it is of, and which cases are to run.
 ///
 /// # Errors
-/// A folder of another study, and files that cannot be written; the cases that are done stay done.
-pub fn run_study(
-    plan: &StudyPlan,
+/// A folder of another study, and files that cannot be written.
+pub fn begin_study<'a>(
+    plan: &'a StudyPlan,
     files: &dyn Files,
     runner: &dyn RunCase,
-    stop: &AtomicBool,
-    told: &(dyn Fn(Progress) + Sync),
-) -> Result<StudyEnd, StudyError> {
+) -> Result<BegunStudy<'a>, StudyError> {
     let folder = plan.folder.as_path();
     files.make_folder(folder).map_err(StudyError::of(folder))?;
     let info_path = folder.join(INFO);
@@ -226,15 +336,15 @@ pub fn run_study(
     let text = serde_json::to_vec_pretty(&info).map_err(|error| StudyError::of(&info_path)(error.into()))?;
     files.write(&info_path, &text).map_err(StudyError::of(&info_path))?;
 
-    let records: HashMap<&str, &CaseRecord> =
-        earlier.iter().flat_map(|study| &study.records).map(|record| (record.case.as_str(), record)).collect();
+    let records = earlier.map(|study| study.records).unwrap_or_default();
+    let known: HashMap<&str, &CaseRecord> = records.iter().map(|record| (record.case.as_str(), record)).collect();
     let (mut end, mut governing, mut pending) = (StudyEnd::default(), Governing::default(), Vec::new());
     let (mut followed, mut behind) = (Followed::default(), Vec::new());
     // intact cases before the transient ones that follow them: no worker waits while there is other work
     let (transient, others): (Vec<&Case>, Vec<&Case>) = plan.table.cases.iter().partition(|case| case.intact.is_some());
     for case in others.into_iter().chain(transient) {
         let list = if case.intact.is_some() { &mut behind } else { &mut pending };
-        let Some(record) = records.get(case.name.as_str()) else {
+        let Some(record) = known.get(case.name.as_str()) else {
             followed.expected.insert(case.name.clone());
             list.push(case);
             continue;
@@ -244,7 +354,7 @@ pub fn run_study(
             if followed.expected.contains(intact) {
                 return Some(format!("its intact case {intact} is run again"));
             }
-            let now = records.get(intact).map(|record| record.followed());
+            let now = known.get(intact).map(|record| record.followed());
             (now != record.intact).then(|| format!("its intact case {intact} has changed"))
         });
         match reason {
@@ -263,50 +373,155 @@ pub fn run_study(
     pending.append(&mut behind);
     let kept_cases = folder.join(KEPT_CASES);
     files.make_folder(&kept_cases).map_err(StudyError::of(&kept_cases))?;
-    let jobs = plan.jobs.clamp(1, pending.len().max(1));
-    let progress = Progress { total: pending.len(), ..Progress::default() };
-    let state = Mutex::new((governing, progress, None));
-    let shared = Shared { plan, files, runner, pending, followed, next: AtomicUsize::new(0), stop, start, state, told };
-    std::thread::scope(|scope| {
-        for worker in 0..jobs {
-            let shared = &shared;
-            scope.spawn(move || {
-                if let Err(error) = work(shared, worker) {
-                    shared.stop.store(true, Ordering::Relaxed);
-                    if let Ok(mut state) = shared.state.lock() {
-                        state.2.get_or_insert(error);
-                    }
-                }
-            });
-        }
-    });
-    let (_, progress, error) = shared.state.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner);
-    end.progress = progress;
-    if let Some(error) = error {
-        return Err(error);
-    }
-    drop_stray_folders(plan, files, &kept_cases)?;
-    Ok(end)
+    Ok(BegunStudy { start, pending, records, end, governing, followed })
 }
 
-/// Drops kept folders of cases that no longer keep theirs: of another table, and of what was stopped between a folder and its record.
-fn drop_stray_folders(plan: &StudyPlan, files: &dyn Files, kept_cases: &Path) -> Result<(), StudyError> {
-    let study = Study::open(&plan.folder)?;
+/// Runs what is left of a study.
+///
+/// # Errors
+/// A folder of another study, and files that cannot be written; the cases that are done stay done.
+pub fn run_study(
+    plan: &StudyPlan,
+    files: &dyn Files,
+    runner: &dyn RunCase,
+    stop: &AtomicBool,
+    told: &(dyn Fn(Progress) + Sync),
+) -> Result<StudyEnd, StudyError> {
+    begin_study(plan, files, runner)?.run(plan, files, runner, stop, told)
+}
+
+impl BegunStudy<'_> {
+    /// Runs the pending cases.
+    ///
+    /// # Errors
+    /// Files that cannot be written; the cases that are done stay done.
+    pub fn run(
+        self,
+        plan: &StudyPlan,
+        files: &dyn Files,
+        runner: &dyn RunCase,
+        stop: &AtomicBool,
+        told: &(dyn Fn(Progress) + Sync),
+    ) -> Result<StudyEnd, StudyError> {
+        let BegunStudy { start, pending, records: _, mut end, governing, followed } = self;
+        end.progress = run_here(plan, (start, pending, followed), governing, files, runner, stop, told)?;
+        Ok(end)
+    }
+
+    /// The records of the intact cases that some of the pending ones follow and that are not run again themselves.
+    pub(crate) fn intact_records(&self, cases: &[&Case]) -> impl Iterator<Item = &CaseRecord> {
+        let pending: HashSet<&str> = self.pending.iter().map(|case| case.name.as_str()).collect();
+        let followed = cases.iter().filter_map(|case| case.intact.as_deref());
+        let wanted: HashSet<String> = followed.filter(|name| !pending.contains(name)).map(str::to_owned).collect();
+        self.records.iter().filter(move |record| wanted.contains(&record.case))
+    }
+
+    /// Places of the pending cases that have to be run by one process, intact ones with the transient ones that follow them.
+    pub fn groups(&self) -> Vec<Vec<usize>> {
+        let (mut groups, mut known): (Vec<Vec<usize>>, HashMap<&str, usize>) = (Vec::new(), HashMap::new());
+        for (place, case) in self.pending.iter().enumerate() {
+            match case.intact.as_deref().and_then(|intact| known.get(intact)) {
+                Some(group) => groups.get_mut(*group).into_iter().for_each(|group| group.push(place)),
+                None => {
+                    known.insert(&case.name, groups.len());
+                    groups.push(vec![place]);
+                }
+            }
+        }
+        groups
+    }
+
+    /// Runs some of the pending cases, by their places, and the intact ones that they follow; they are then pending no more, and their records are among those of the study.
+    ///
+    /// # Errors
+    /// Files that cannot be written; the cases that are done stay done.
+    pub fn run_sample(
+        &mut self,
+        places: &[usize],
+        plan: &StudyPlan,
+        files: &dyn Files,
+        runner: &dyn RunCase,
+        stop: &AtomicBool,
+        told: &(dyn Fn(Progress) + Sync),
+    ) -> Result<(), StudyError> {
+        let mut names: HashSet<&str> = HashSet::new();
+        for case in places.iter().filter_map(|place| self.pending.get(*place)) {
+            names.insert(&case.name);
+            names.extend(case.intact.as_deref());
+        }
+        let sample: Vec<&Case> = self.pending.iter().copied().filter(|c| names.contains(c.name.as_str())).collect();
+        let followed = Followed::new(&sample, self.intact_records(&sample));
+        let governing = std::mem::take(&mut self.governing);
+        self.end.progress = run_here(plan, (self.start, sample, followed), governing, files, runner, stop, told)?;
+        self.records = Study::open(&plan.folder)?.records;
+        let of_start = self.records.iter().filter(|record| record.start == self.start);
+        let done: HashSet<&str> = of_start.map(|record| record.case.as_str()).collect();
+        self.pending.retain(|case| !done.contains(case.name.as_str()));
+        Ok(())
+    }
+}
+
+/// Runs cases of a start in this process, and drops the folders that are not kept.
+fn run_here(
+    plan: &StudyPlan,
+    (start, pending, followed): (u64, Vec<&Case>, Followed),
+    governing: Governing,
+    files: &dyn Files,
+    runner: &dyn RunCase,
+    stop: &AtomicBool,
+    told: &(dyn Fn(Progress) + Sync),
+) -> Result<Progress, StudyError> {
+    let lanes = (0..plan.jobs.clamp(1, pending.len().max(1))).map(|worker| Lane {
+        results: Arc::new(ResultsFile::new(results_file(&plan.folder, worker))),
+        running: plan.folder.join(format!(".running-{worker}")),
+    });
+    let batch = Batch {
+        columns: &plan.table.columns,
+        lanes: lanes.collect(),
+        keep: plan.keep,
+        kept_cases: plan.folder.join(KEPT_CASES),
+        max_failed: MAX_FAILED_FOLDERS,
+        version: &plan.version,
+        pending,
+        followed,
+        start,
+        files,
+        runner,
+        stop,
+        told,
+    };
+    let progress = batch.run(governing)?;
+    drop_stray_folders(&plan.folder, plan.keep, files)?;
+    Ok(progress)
+}
+
+/// Which of the cases of a study keep the folder of their answers.
+pub(crate) fn keepers(study: &Study, keep: Keep) -> HashSet<&str> {
     let mut governing = Governing::default();
     for record in &study.records {
         governing.offer(record);
     }
-    let stays = |name: &str| {
-        let record = study.records.iter().find(|record| record.case == name);
-        record.is_some_and(|record| keeps(plan.keep, record.status, governing.held.get(name).copied().unwrap_or(0) > 0))
+    let mut failed = 0;
+    let stays = |record: &&CaseRecord| {
+        if record.status == CaseStatus::Failed {
+            failed += 1;
+            if failed > MAX_FAILED_FOLDERS && keep != Keep::Everything {
+                return false;
+            }
+        }
+        keeps(keep, record.status, governing.held.get(&record.case).copied().unwrap_or(0) > 0)
     };
-    let failed = study.records.iter().filter(|record| record.status == CaseStatus::Failed);
-    let too_many: HashSet<&str> = failed.skip(MAX_FAILED_FOLDERS).map(|record| record.case.as_str()).collect();
-    for entry in std::fs::read_dir(kept_cases).map_err(StudyError::of(kept_cases))? {
-        let entry = entry.map_err(StudyError::of(kept_cases))?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        let is_surplus = plan.keep != Keep::Everything && too_many.contains(name.as_str());
-        if is_surplus || !stays(&name) {
+    study.records.iter().filter(stays).map(|record| record.case.as_str()).collect()
+}
+
+/// Drops kept folders of cases that no longer keep theirs: of another table, and of what was stopped between a folder and its record.
+pub(crate) fn drop_stray_folders(folder: &Path, keep: Keep, files: &dyn Files) -> Result<(), StudyError> {
+    let study = Study::open(folder)?;
+    let stays = keepers(&study, keep);
+    let kept_cases = folder.join(KEPT_CASES);
+    for entry in std::fs::read_dir(&kept_cases).map_err(StudyError::of(&kept_cases))? {
+        let entry = entry.map_err(StudyError::of(&kept_cases))?;
+        if !stays.contains(entry.file_name().to_string_lossy().as_ref()) {
             let path = entry.path();
             files.remove_folder(&path).map_err(StudyError::of(&path))?;
         }
@@ -350,11 +565,11 @@ fn reason_to_run_again(plan: &StudyPlan, case: &Case, record: &CaseRecord, runne
 
 /// Runs a case, a transient one when the intact case that it follows has ended; `None` where it was interrupted, or that case was.
 fn run_case(shared: &Shared, case: &Case, running: &Path) -> Option<CaseRecord> {
-    let columns = &shared.plan.table.columns;
-    let Some(name) = &case.intact else { return shared.runner.run(case, columns, running, None) };
-    let intact = shared.followed.wait(name, shared.stop)?;
+    let Batch { columns, runner, followed, stop, version, .. } = shared.batch;
+    let Some(name) = &case.intact else { return runner.run(case, columns, running, None) };
+    let intact = followed.wait(name, stop)?;
     if intact.status != CaseStatus::Failed {
-        return shared.runner.run(case, columns, running, Some(&intact));
+        return runner.run(case, columns, running, Some(&intact));
     }
     Some(CaseRecord {
         case: case.name.clone(),
@@ -362,66 +577,56 @@ fn run_case(shared: &Shared, case: &Case, running: &Path) -> Option<CaseRecord> 
         seed: case.seed,
         status: CaseStatus::Failed,
         reason: format!("its intact case {name} has failed: {}", intact.reason),
-        version: shared.plan.version.clone(),
+        version: (*version).to_owned(),
         intact: Some(intact.followed()),
         ..CaseRecord::default()
     })
 }
 
 /// One of the workers.
-fn work(shared: &Shared, worker: usize) -> Result<(), StudyError> {
-    let Shared { plan, files, .. } = shared;
-    let results = results_file(&plan.folder, worker);
-    let running = plan.folder.join(format!(".running-{worker}"));
-    let mut unsynced: Option<Instant> = None;
-    while !shared.stop.load(Ordering::Relaxed) {
-        let Some(case) = shared.pending.get(shared.next.fetch_add(1, Ordering::Relaxed)) else { break };
-        files.remove_folder(&running).map_err(StudyError::of(&running))?;
-        files.make_folder(&running).map_err(StudyError::of(&running))?;
-        let made = run_case(shared, case, &running);
-        shared.followed.end(case, made.as_ref());
+fn work(shared: &Shared, lane: &Lane) -> Result<(), StudyError> {
+    let Batch { files, .. } = shared.batch;
+    let Lane { results, running } = lane;
+    while !shared.batch.stop.load(Ordering::Relaxed) {
+        let Some(case) = shared.batch.pending.get(shared.next.fetch_add(1, Ordering::Relaxed)) else { break };
+        files.remove_folder(running).map_err(StudyError::of(running))?;
+        files.make_folder(running).map_err(StudyError::of(running))?;
+        let made = run_case(shared, case, running);
+        shared.batch.followed.end(case, made.as_ref());
         let Some(mut record) = made else {
-            if case.intact.is_some() && !shared.stop.load(Ordering::Relaxed) {
+            if case.intact.is_some() && !shared.batch.stop.load(Ordering::Relaxed) {
                 continue;
             }
             break;
         };
-        record.start = shared.start;
-        let line = record.encode().map_err(|error| StudyError::of(&results)(error.into()))?;
+        record.start = shared.batch.start;
+        let line = record.encode().map_err(|error| StudyError::of(&results.path)(error.into()))?;
         // the folder first: a record says that all of its case is there
-        keep_folder(shared, &record, &running)?;
-        files.append(&results, &line).map_err(StudyError::of(&results))?;
-        let since = *unsynced.get_or_insert_with(Instant::now);
-        if since.elapsed() >= SYNC_AFTER {
-            files.sync(&results).map_err(StudyError::of(&results))?;
-            unsynced = None;
-        }
+        keep_folder(shared, &record, running)?;
+        results.append(&line, *files)?;
         if let Ok(mut state) = shared.state.lock() {
             state.1.finished += 1;
             state.1.failed += usize::from(record.status == CaseStatus::Failed);
-            (shared.told)(state.1);
+            (shared.batch.told)(state.1);
         }
     }
-    if unsynced.is_some() {
-        files.sync(&results).map_err(StudyError::of(&results))?;
-    }
-    files.remove_folder(&running).map_err(StudyError::of(&running))
+    results.sync(*files)?;
+    files.remove_folder(running).map_err(StudyError::of(running))
 }
 
 /// Keeps the folder of a case, or not, and drops those of cases that govern no more.
 fn keep_folder(shared: &Shared, record: &CaseRecord, running: &Path) -> Result<(), StudyError> {
-    let Shared { plan, files, .. } = shared;
-    let place = |case: &str| plan.folder.join(KEPT_CASES).join(case);
-    let mut state = shared.state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let Batch { keep, kept_cases, max_failed, files, .. } = shared.batch;
+    let mut state = shared.state.lock().unwrap_or_else(PoisonError::into_inner);
     let (governs, gone) = state.0.offer(record);
-    let too_many = record.status == CaseStatus::Failed && state.1.failed >= MAX_FAILED_FOLDERS;
-    if (plan.keep == Keep::Everything || !too_many) && keeps(plan.keep, record.status, governs) {
-        let to = place(&record.case);
+    let too_many = record.status == CaseStatus::Failed && state.1.failed >= *max_failed;
+    if (*keep == Keep::Everything || !too_many) && keeps(*keep, record.status, governs) {
+        let to = kept_cases.join(&record.case);
         files.move_folder(running, &to).map_err(StudyError::of(&to))?;
     }
-    if plan.keep == Keep::Governing {
+    if *keep == Keep::Governing {
         for case in gone {
-            let path = place(&case);
+            let path = kept_cases.join(&case);
             files.remove_folder(&path).map_err(StudyError::of(&path))?;
         }
     }

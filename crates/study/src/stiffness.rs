@@ -1,12 +1,14 @@
 //! The column `stiffness`: by which axial stiffness of fibre ropes a case is run, and what of it is judged.
 
 use crate::record::CaseRecord;
+use serde::{Deserialize, Serialize};
 
 /// The column.
 pub const STIFFNESS: &str = "stiffness";
 
 /// The axial stiffness of the fibre ropes of a case.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum CaseStiffness {
     /// The least: offsets are judged.
     Lower,

@@ -72,7 +72,7 @@ pub trait Files: Sync {
     /// # Errors
     /// What the system refuses.
     fn remove(&self, path: &Path) -> io::Result<()>;
-    /// Puts a folder in the place of another, which is removed.
+    /// Puts a folder in the place of another, which is removed; from another file system by a copy, whole or not at all.
     ///
     /// # Errors
     /// What the system refuses.
@@ -124,7 +124,17 @@ impl Files for SystemFiles {
 
     fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {
         self.remove_folder(to)?;
-        fs::rename(from, to)
+        match fs::rename(from, to) {
+            Err(error) if error.kind() == io::ErrorKind::CrossesDevices => {
+                let name = to.file_name().unwrap_or_default().to_string_lossy();
+                let beside = to.with_file_name(format!(".{name}.new"));
+                self.remove_folder(&beside)?;
+                copy_folder(from, &beside)?;
+                fs::rename(&beside, to)?;
+                self.remove_folder(from)
+            }
+            moved => moved,
+        }
     }
 
     fn remove_folder(&self, path: &Path) -> io::Result<()> {
@@ -133,6 +143,21 @@ impl Files for SystemFiles {
             _ => Ok(()),
         }
     }
+}
+
+/// Copies the files and folders of a folder to a new one.
+fn copy_folder(from: &Path, to: &Path) -> io::Result<()> {
+    fs::create_dir(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        let (kind, to) = (entry.file_type()?, to.join(entry.file_name()));
+        if kind.is_dir() {
+            copy_folder(&entry.path(), &to)?;
+        } else if kind.is_file() {
+            fs::copy(entry.path(), to)?;
+        }
+    }
+    Ok(())
 }
 
 /// What a study is of.

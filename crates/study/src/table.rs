@@ -7,7 +7,7 @@ use crate::lost::{
 use crate::record::CaseRecord;
 use crate::stiffness::{CaseStiffness, STIFFNESS};
 use indexmap::IndexMap;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
 
 /// Most cases of a table, unless more are asked for: beyond it a grid is more likely a slip than a wish.
@@ -43,7 +43,7 @@ fn place(line: Option<u64>, column: &Option<String>) -> String {
 }
 
 /// A case of a table.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Case {
     /// Its name.
     pub name: String,
@@ -52,12 +52,16 @@ pub struct Case {
     /// Its seed.
     pub seed: u64,
     /// The lines it is without, where the table has a column `lost`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lost: Option<LostLines>,
     /// The intact case that a transient one follows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub intact: Option<String>,
     /// Lines that transient cases lose which follow this one: it keeps their peaks.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub peaks_of: Vec<String>,
     /// The stiffness of its fibre ropes, where the table has a column `stiffness`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<CaseStiffness>,
 }
 

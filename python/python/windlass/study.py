@@ -2,6 +2,7 @@
 
     >>> made = windlass.study.run("cases.csv", "model.cif", "out")
     >>> made.results.to_pandas()
+    >>> made.ensembles.to_pandas()       # MPM and fractiles over seeds, with their intervals
 """
 
 from __future__ import annotations
@@ -29,14 +30,16 @@ class Study(NamedTuple):
     results: Table
     #: A row a line of each case, where the script has lines.
     lines: Table
+    #: Extremes over seeds: a row a result of each ensemble, cases that differ in their seeds alone. No column where no two cases do.
+    ensembles: Table
     #: What the program said at the end.
     summary: str
 
 
 def read(folder: Path) -> Study:
     """The tables of a study, done or under way."""
-    results, lines = read_study(folder)
-    return Study(results, lines, "")
+    results, lines, ensembles = read_study(folder)
+    return Study(results, lines, ensembles, "")
 
 
 def run(

@@ -7,8 +7,9 @@ use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use windlass_study::kept::KeptResult;
+use windlass_study::parts::{Part, collect, divide};
 use windlass_study::record::{CaseRecord, CaseStatus, FileRead, LinePeaks, Peak, decode};
-use windlass_study::runner::{Keep, RunCase, StudyPlan, run_study};
+use windlass_study::runner::{Keep, RunCase, StudyPlan, begin_study, run_study};
 use windlass_study::store::{Files, Study, SystemFiles};
 use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
@@ -229,6 +230,48 @@ fn transient_cases_follow_intact_ones_wherever_a_study_is_stopped() {
             run_study(&plan, &SystemFiles, &Losses, &AtomicBool::new(false), &|_| ()).unwrap();
             assert_eq!(end(&plan), by_hand, "{jobs} workers, stopped after {n} operations");
         }
+    }
+}
+
+/// Divides what is left of a study into so many parts, a group after the other in turn, and runs them, each stopped after so many operations
+/// first.
+fn run_in_parts(plan: &StudyPlan, parts: usize, stop_after: usize, scratch: &Path) {
+    let begun = begin_study(plan, &SystemFiles, &Losses).unwrap();
+    let mut packed = vec![Vec::new(); parts];
+    begun.groups().into_iter().enumerate().for_each(|(n, group)| packed[n % parts].extend(group));
+    packed.iter_mut().for_each(|part| part.sort_unstable());
+    divide(plan, &begun, &packed, &SystemFiles).unwrap();
+    for number in 1..=parts {
+        let part = Part::open(&plan.folder, begun.start, number).unwrap();
+        for left in [stop_after, usize::MAX] {
+            let files = Stopping { left: AtomicUsize::new(left) };
+            let _ = part.run((2, scratch), &files, &Losses, &AtomicBool::new(false), &|_| ());
+        }
+    }
+}
+
+#[test]
+fn parts_keep_transient_cases_with_their_intact_ones_wherever_they_are_stopped() {
+    for stop_after in 0..30 {
+        let folder = tempfile::tempdir().unwrap();
+        let (whole, scratch) = (folder.path().join("whole"), folder.path().join("scratch"));
+        let one = losses(&whole, LOSSES, 1);
+        run_study(&one, &SystemFiles, &Losses, &AtomicBool::new(false), &|_| ()).unwrap();
+        let plan = losses(folder.path(), LOSSES, 1);
+        run_in_parts(&plan, 3, stop_after, &scratch);
+        let place = (2, scratch.as_path());
+        let stop = AtomicBool::new(false);
+        let study = collect(&plan.folder, Keep::Governing, place, &SystemFiles, &Losses, &stop).unwrap();
+        let without_start =
+            |study: &Study| study.records.iter().map(|r| CaseRecord { start: 0, ..r.clone() }).collect::<Vec<_>>();
+        assert_eq!(without_start(&study), without_start(&Study::open(&one.folder).unwrap()), "{stop_after}");
+        assert_eq!(kept(folder.path()), kept(&whole), "{stop_after}");
+        // a transient case more: the part has the record of the intact one that it follows
+        let more = losses(folder.path(), &format!("{LOSSES}V,7,L1,transient,a\n"), 1);
+        run_in_parts(&more, 2, stop_after, &scratch);
+        let study = Study::open(&more.folder).unwrap();
+        let last = study.records.last().unwrap();
+        assert_eq!((last.case.as_str(), last.results[0].value.to_bits()), ("V", f64::to_bits(14.0)));
     }
 }
 
