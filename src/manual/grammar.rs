@@ -42,7 +42,7 @@ pub fn build_grammar() -> String {
     records.extend(COMMANDS.iter().map(|command| command.spec.name));
     let classes: BTreeSet<&str> = class_specs().map(|spec| spec.name).collect();
     records.extend(internal_names().map(|(name, _)| name));
-    records.retain(|name| !control.contains(name) && !name.is_empty());
+    records.retain(|name| !control.contains(name) && !name.is_empty() && !name.starts_with('#'));
     let calls: BTreeSet<&str> = FUNCTION_HELP.iter().chain(functions::FUNCTION_HELP).map(|help| help.0).collect();
     let rule = |name: &str, pattern: String| json!({ "name": format!("{name}.windlass"), "match": pattern });
     let grammar: Value = json!({
