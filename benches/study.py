@@ -124,7 +124,7 @@ def rows(folder):
     names = [f"C{n:07d}" for n in range(number)]
     info = {"model": "storm.cif", "begun_in": "", "table": "cases.csv", "seed": 1, "version": VERSION, "start": 1, "cases": names}
     (study / "study.json").write_text(json.dumps(info))
-    division = {"start": 1, "parts": parts, "model": "storm.cif", "begun_in": "", "columns": [], "keep": "none", "version": VERSION}
+    division = {"start": 1, "parts": parts, "model": "storm.cif", "begun_in": "", "columns": [], "keep": "nothing", "version": VERSION}
     (study / "parts/1.jsonl").write_text(json.dumps(division) + "\n")
     kept = [f"RESULT_{k}" for k in range(10)]
     for part in range(parts):
