@@ -257,8 +257,8 @@ pub fn collect(
 ) -> Result<Study, StudyError> {
     let kept_cases = folder.join(KEPT_CASES);
     files.make_folder(&kept_cases).map_err(StudyError::of(&kept_cases))?;
-    drop_stray_folders(folder, keep, files)?;
     let study = Study::open(folder)?;
+    drop_stray_folders(folder, &study, keep, files)?;
     let stays = keepers(&study, keep);
     let is_missing = |record: &&CaseRecord| {
         record.status != CaseStatus::Failed

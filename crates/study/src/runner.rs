@@ -491,7 +491,7 @@ fn run_here(
         told,
     };
     let progress = batch.run(governing)?;
-    drop_stray_folders(&plan.folder, plan.keep, files)?;
+    drop_stray_folders(&plan.folder, &Study::open(&plan.folder)?, plan.keep, files)?;
     Ok(progress)
 }
 
@@ -515,9 +515,13 @@ pub(crate) fn keepers(study: &Study, keep: Keep) -> HashSet<&str> {
 }
 
 /// Drops kept folders of cases that no longer keep theirs: of another table, and of what was stopped between a folder and its record.
-pub(crate) fn drop_stray_folders(folder: &Path, keep: Keep, files: &dyn Files) -> Result<(), StudyError> {
-    let study = Study::open(folder)?;
-    let stays = keepers(&study, keep);
+pub(crate) fn drop_stray_folders(
+    folder: &Path,
+    study: &Study,
+    keep: Keep,
+    files: &dyn Files,
+) -> Result<(), StudyError> {
+    let stays = keepers(study, keep);
     let kept_cases = folder.join(KEPT_CASES);
     for entry in std::fs::read_dir(&kept_cases).map_err(StudyError::of(&kept_cases))? {
         let entry = entry.map_err(StudyError::of(&kept_cases))?;
