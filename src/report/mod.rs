@@ -16,6 +16,7 @@ pub mod pager;
 pub mod parquet;
 pub mod picture;
 pub mod plot;
+pub mod pressure_file;
 pub mod readback;
 pub mod run_log;
 pub mod statistic;

@@ -24,7 +24,14 @@ const MAX_NAME_BYTES: usize = 120;
 
 /// A file in memory that is still at hand when its writer is gone.
 #[derive(Clone, Debug, Default)]
-struct Shared(Rc<RefCell<Cursor<Vec<u8>>>>);
+pub(super) struct Shared(Rc<RefCell<Cursor<Vec<u8>>>>);
+
+impl Shared {
+    /// The bytes of the file.
+    pub(super) fn into_bytes(self) -> Vec<u8> {
+        self.0.take().into_inner()
+    }
+}
 
 impl Write for Shared {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
@@ -109,10 +116,10 @@ pub fn bytes(table: &Table, units: UnitSystem) -> Result<Vec<u8>, StoreError> {
         .map_err(to_store_error)?;
     }
     writer.close().map_err(to_store_error)?;
-    Ok(shared.0.take().into_inner())
+    Ok(shared.into_bytes())
 }
 
-fn to_store_error(error: impl std::fmt::Debug) -> StoreError {
+pub(super) fn to_store_error(error: impl std::fmt::Debug) -> StoreError {
     StoreError::Library(format!("{error:?}"))
 }
 

@@ -65,9 +65,12 @@ pub enum DiffractionError {
         /// Where (m).
         at: [f64; 3],
     },
-    /// Mirror planes together with several bodies.
-    #[error("mirror planes are for one body alone, there are {0}")]
-    MirroredBodies(usize),
+    /// A body with other mirror planes than the first.
+    #[error("body {0} has other mirror planes than body 1: all bodies have the same, or none")]
+    OtherMirrors(usize),
+    /// An origin beside the mirror planes.
+    #[error("the origin of body {0} is not on the mirror planes")]
+    OriginOffMirror(usize),
     /// A system of equations without a solution in numbers.
     #[error("the system of equations at {0:.6} rad/s has no solution that is finite")]
     NoSolution(f64),

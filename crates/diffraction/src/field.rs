@@ -15,6 +15,8 @@ type C = Complex<f64>;
 
 /// Points down the side of a control surface, and along the radius of its bottom.
 static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(12));
+/// Points of each rule on a box.
+static BOX_RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(8));
 /// Directions around a control surface, beyond four for each wave length of its circumference over pi.
 const SPARE_DIRECTIONS: usize = 24;
 /// Step of differences of the potential, over the least of radius, depth and 1/k of the control surface: the error of the differences, and
@@ -32,6 +34,28 @@ pub struct ControlCylinder {
     pub depth: f64,
 }
 
+/// An upright box in the water around one of several bodies, from the mean level down; no hull may cross it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ControlBox {
+    /// x and y of its middle (m).
+    pub centre: [f64; 2],
+    /// Half of its length and half of its width (m).
+    pub half: [f64; 2],
+    /// Direction of its length (rad).
+    pub heading: f64,
+    /// Depth of its bottom (m).
+    pub depth: f64,
+}
+
+/// A surface around bodies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ControlSurface {
+    /// A cylinder.
+    Cylinder(ControlCylinder),
+    /// A box.
+    Box(ControlBox),
+}
+
 /// Mean drift by a control surface, for a wave of amplitude 1 m, of the bodies within it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ControlSurfaceDrift {
@@ -39,9 +63,14 @@ pub struct ControlSurfaceDrift {
     pub surge: f64,
     /// Force along y (N/m2).
     pub sway: f64,
-    /// Moment about the axis of the cylinder (N m/m2).
+    /// Moment about the vertical through the middle of the surface (N m/m2).
     pub yaw: f64,
 }
+
+/// Distance of a control surface from the bodies over their extent.
+const CONTROL_SHARE: f64 = 0.25;
+/// Most rules along a side of a control surface.
+const MAX_PIECES: usize = 40;
 
 /// Points may lie so far below the bottom, over the depth, as differences at it need; the potential is smooth through it.
 const BOTTOM_ROOM: f64 = 0.02;
@@ -87,8 +116,8 @@ impl WaveSolution {
                     self.headings.iter().map(|heading| self.wave.at(point, *heading).0 * (4.0 * PI)).collect();
                 for (image, block) in images.iter().zip((0..).step_by(count)) {
                     let from = mirrored(point, *image);
-                    for (index, panel) in self.mesh.hull().iter().enumerate() {
-                        let (mut source, mut dipole) = kernel.over_panel(&from, panel);
+                    let waves = kernel.over_panels(&from, self.mesh.hull());
+                    for (index, (panel, (mut source, mut dipole))) in self.mesh.hull().iter().zip(waves).enumerate() {
                         for level in &levels {
                             let z = level.sign * from.z + level.shift;
                             let [potential, angle] = panel.rankine(&Vector3::new(from.x, from.y, z));
@@ -123,25 +152,125 @@ impl WaveSolution {
     }
 
     /// The mean drift of the bodies within a control surface, heading by heading; `motions` are those of all bodies for each heading (m/m,
-    /// rad/m). None where the motions are not those of all headings, or the cylinder is not above the bottom or crosses a hull.
+    /// rad/m). None where the motions are not those of all headings, or the surface is not above the bottom or crosses a hull.
     ///
     /// The mean momentum through the surface is `-(rho g/2) zeta^2 n` on its waterline and `(rho/2) |grad phi|^2 n - rho u u_n` below, with
     /// velocities by differences of the potential.
     pub fn control_surface_drift(
         &self,
         motions: &[Vec<C>],
-        cylinder: &ControlCylinder,
+        surface: &ControlSurface,
     ) -> Option<Vec<ControlSurfaceDrift>> {
-        let ControlCylinder { centre, radius, depth } = *cylinder;
+        let (centre, [width, depth]) = (surface.centre(), surface.size());
         let on_bottom = self.wave.depth.is_some_and(|bottom| (depth / bottom - 1.0).abs() < 1e-9);
-        if !(radius > 0.0 && depth > 0.0 && (on_bottom || self.wave.depth.is_none_or(|bottom| depth < bottom)))
-            || self.crosses_hull(cylinder)
-        {
+        let is_above = on_bottom || self.wave.depth.is_none_or(|bottom| depth < bottom);
+        if !(width > 0.0 && depth > 0.0 && is_above) {
             return None;
         }
         let k = self.wave.wave_number;
+        let gap = self.distance_to_hull(surface)?;
+        let step = DIFFERENCE_SHARE * width.min(depth).min(1.0 / k);
+        let (waterline, below) = match surface {
+            ControlSurface::Cylinder(cylinder) => cylinder.points(k, on_bottom),
+            ControlSurface::Box(block) => block.points(k, gap, on_bottom),
+        };
+        // around each point: x, y, and z downward, as the surface is above
+        let (along, across, down) =
+            (Vector3::new(step, 0.0, 0.0), Vector3::new(0.0, step, 0.0), Vector3::new(0.0, 0.0, -step));
+        let arms = [along, -along, across, -across, Vector3::zeros(), down, 2.0 * down];
+        let points: Vec<_> = below
+            .iter()
+            .flat_map(|point| arms.map(|arm| point.at + arm))
+            .chain(waterline.iter().map(|point| point.at))
+            .collect();
+        let potentials = self.potentials(motions, &points)?;
+        let density = self.water.density;
+        let elevation = self.wave.frequency / self.wave.gravity;
+        let mut made = Vec::with_capacity(potentials.len());
+        for potentials in potentials {
+            let mut drift = ControlSurfaceDrift::default();
+            let mut add = |point: &FluxPoint, force: Vector3<f64>| {
+                drift.surge += force.x * point.weight;
+                drift.sway += force.y * point.weight;
+                drift.yaw += ((point.at.x - centre[0]) * force.y - (point.at.y - centre[1]) * force.x) * point.weight;
+            };
+            let (fields, at_waterline) = potentials.split_at(below.len() * arms.len());
+            for (point, field) in below.iter().zip(fields.chunks_exact(arms.len())) {
+                let velocity = [
+                    (field[0] - field[1]) / (2.0 * step),
+                    (field[2] - field[3]) / (2.0 * step),
+                    (field[4] * 3.0 - field[5] * 4.0 + field[6]) / (2.0 * step),
+                ];
+                let through: C = velocity.iter().zip(point.outward.iter()).map(|(v, n)| v * *n).sum();
+                let square: f64 = velocity.iter().map(|v| v.norm_sqr()).sum();
+                let flux = Vector3::from(velocity.map(|v| (v * through.conj()).re));
+                add(point, (point.outward * (0.5 * square) - flux) * (0.5 * density));
+            }
+            for (point, potential) in waterline.iter().zip(at_waterline) {
+                let square = (potential * elevation).norm_sqr();
+                add(point, point.outward * (-0.25 * density * self.wave.gravity * square));
+            }
+            made.push(drift);
+        }
+        Some(made)
+    }
+
+    /// The least horizontal distance (m) of the hulls from a surface; none where panels lie on both sides of it, or below it.
+    fn distance_to_hull(&self, surface: &ControlSurface) -> Option<f64> {
+        let images = self.mesh.mirrors().images();
+        let mut least = f64::INFINITY;
+        for panel in self.mesh.hull() {
+            for image in &images {
+                let corners = panel.corners().map(|corner| mirrored(&corner, *image));
+                let beyond = corners.map(|at| surface.distance_beyond([at.x, at.y]));
+                let inside = beyond.iter().filter(|distance| **distance < 0.0).count();
+                let deepest = corners.iter().fold(0.0, |most: f64, at| most.max(-at.z));
+                if inside > 0 && (inside < corners.len() || deepest > surface.size()[1]) {
+                    return None;
+                }
+                least = beyond.iter().fold(least, |least, distance| least.min(distance.abs()));
+            }
+        }
+        Some(least)
+    }
+}
+
+/// Points of the waterline of a control surface, and of what is below it.
+type FluxPoints = (Vec<FluxPoint>, Vec<FluxPoint>);
+
+impl ControlSurface {
+    /// x and y of its middle (m).
+    pub fn centre(&self) -> [f64; 2] {
+        match self {
+            ControlSurface::Cylinder(cylinder) => cylinder.centre,
+            ControlSurface::Box(block) => block.centre,
+        }
+    }
+
+    /// The least of half its length and width, and its depth (m).
+    fn size(&self) -> [f64; 2] {
+        match self {
+            ControlSurface::Cylinder(cylinder) => [cylinder.radius, cylinder.depth],
+            ControlSurface::Box(block) => [block.half[0].min(block.half[1]), block.depth],
+        }
+    }
+
+    /// How far a point on the plan is outside of it (m); within it less than zero.
+    fn distance_beyond(&self, at: [f64; 2]) -> f64 {
+        match self {
+            ControlSurface::Cylinder(own) => (at[0] - own.centre[0]).hypot(at[1] - own.centre[1]) - own.radius,
+            ControlSurface::Box(own) => {
+                let [x, y] = own.along_axes(at);
+                (x.abs() - own.half[0]).max(y.abs() - own.half[1])
+            }
+        }
+    }
+}
+
+impl ControlCylinder {
+    fn points(&self, k: f64, on_bottom: bool) -> FluxPoints {
+        let ControlCylinder { centre, radius, depth } = *self;
         let turns = SPARE_DIRECTIONS + 4 * (k * radius).ceil() as usize;
-        let step = DIFFERENCE_SHARE * radius.min(depth).min(1.0 / k);
         let angle = 2.0 * PI / turns as f64;
         let (mut waterline, mut below) = (Vec::new(), Vec::new());
         for turn in 0..turns {
@@ -163,59 +292,57 @@ impl WaveSolution {
                 }));
             }
         }
-        // around each point: x, y, and z downward, as the surface is above
-        let (along, across, down) =
-            (Vector3::new(step, 0.0, 0.0), Vector3::new(0.0, step, 0.0), Vector3::new(0.0, 0.0, -step));
-        let arms = [along, -along, across, -across, Vector3::zeros(), down, 2.0 * down];
-        let points: Vec<_> = below
-            .iter()
-            .flat_map(|point| arms.map(|arm| point.at + arm))
-            .chain(waterline.iter().map(|point| point.at))
-            .collect();
-        let potentials = self.potentials(motions, &points)?;
-        let density = self.water.density;
-        let elevation = self.wave.frequency / self.wave.gravity;
-        let mut made = Vec::with_capacity(potentials.len());
-        for potentials in potentials {
-            let mut drift = ControlSurfaceDrift::default();
-            let mut add = |point: &FluxPoint, force: Vector3<f64>| {
-                drift.surge += force.x * point.weight;
-                drift.sway += force.y * point.weight;
-                drift.yaw += ((point.at.x - centre[0]) * force.y - (point.at.y - centre[1]) * force.x) * point.weight;
-            };
-            let (fields, surface) = potentials.split_at(below.len() * arms.len());
-            for (point, field) in below.iter().zip(fields.chunks_exact(arms.len())) {
-                let velocity = [
-                    (field[0] - field[1]) / (2.0 * step),
-                    (field[2] - field[3]) / (2.0 * step),
-                    (field[4] * 3.0 - field[5] * 4.0 + field[6]) / (2.0 * step),
-                ];
-                let through: C = velocity.iter().zip(point.outward.iter()).map(|(v, n)| v * *n).sum();
-                let square: f64 = velocity.iter().map(|v| v.norm_sqr()).sum();
-                let flux = Vector3::from(velocity.map(|v| (v * through.conj()).re));
-                add(point, (point.outward * (0.5 * square) - flux) * (0.5 * density));
-            }
-            for (point, potential) in waterline.iter().zip(surface) {
-                let square = (potential * elevation).norm_sqr();
-                add(point, point.outward * (-0.25 * density * self.wave.gravity * square));
-            }
-            made.push(drift);
-        }
-        Some(made)
+        (waterline, below)
+    }
+}
+
+impl ControlBox {
+    /// From its middle, along its length and its width (m).
+    fn along_axes(&self, at: [f64; 2]) -> [f64; 2] {
+        let (sine, cosine) = self.heading.sin_cos();
+        let (x, y) = (at[0] - self.centre[0], at[1] - self.centre[1]);
+        [x * cosine + y * sine, y * cosine - x * sine]
     }
 
-    /// Whether panels lie on both sides of a cylinder, or below it.
-    fn crosses_hull(&self, cylinder: &ControlCylinder) -> bool {
-        let images = self.mesh.mirrors().images();
-        self.mesh.hull().iter().any(|panel| {
-            images.iter().any(|image| {
-                let corners = panel.corners().map(|corner| mirrored(&corner, *image));
-                let distances = corners.map(|at| (at.x - cylinder.centre[0]).hypot(at.y - cylinder.centre[1]));
-                let inside = distances.iter().filter(|distance| **distance < cylinder.radius).count();
-                let deepest = corners.iter().fold(0.0, |most: f64, at| most.max(-at.z));
-                inside > 0 && (inside < corners.len() || deepest > cylinder.depth)
-            })
-        })
+    /// `gap` is the distance of the hulls (m), over which the field changes.
+    fn points(&self, k: f64, gap: f64, on_bottom: bool) -> FluxPoints {
+        let (sine, cosine) = self.heading.sin_cos();
+        let turned = |x: f64, y: f64, z: f64| Vector3::new(x * cosine - y * sine, x * sine + y * cosine, z);
+        let middle = Vector3::new(self.centre[0], self.centre[1], 0.0);
+        // a rule of eight points for three radians of the wave and eight distances of the hull
+        let pieces =
+            |length: f64| ((k * length / 3.0).max(length / (8.0 * gap)).ceil().max(1.0) as usize).min(MAX_PIECES);
+        let along = |half: f64| -> Vec<(f64, f64)> {
+            let count = pieces(2.0 * half);
+            let end = |piece: usize| half * (2.0 * piece as f64 / count as f64 - 1.0);
+            (0..count).flat_map(|piece| BOX_RULE.between(end(piece), end(piece + 1)).collect::<Vec<_>>()).collect()
+        };
+        let [lengths, widths] = self.half.map(along);
+        let (mut waterline, mut below) = (Vec::new(), Vec::new());
+        for sign in [1.0, -1.0] {
+            let long = lengths.iter().map(|(x, share)| ([*x, sign * self.half[1]], [0.0, sign], *share));
+            let wide = widths.iter().map(|(y, share)| ([sign * self.half[0], *y], [sign, 0.0], *share));
+            for ([x, y], [nx, ny], share) in long.chain(wide) {
+                let outward = turned(nx, ny, 0.0);
+                waterline.push(FluxPoint { at: middle + turned(x, y, 0.0), outward, weight: share });
+                below.extend(BOX_RULE.between(-self.depth, 0.0).map(|(z, height)| FluxPoint {
+                    at: middle + turned(x, y, z),
+                    outward,
+                    weight: share * height,
+                }));
+            }
+        }
+        if !on_bottom {
+            let outward = Vector3::new(0.0, 0.0, -1.0);
+            below.extend(lengths.iter().flat_map(|(x, length)| {
+                widths.iter().map(move |(y, width)| FluxPoint {
+                    at: middle + turned(*x, *y, -self.depth),
+                    outward,
+                    weight: length * width,
+                })
+            }));
+        }
+        (waterline, below)
     }
 }
 
@@ -223,9 +350,40 @@ impl DiffractionProblem {
     /// A control surface around all bodies, at a distance of a quarter of their extent.
     pub fn control_cylinder(&self) -> ControlCylinder {
         let (centre, radius, draught) = self.extent();
-        let gap = 0.25 * radius.max(draught);
-        let depth = draught + gap;
-        let depth = self.water().depth.map_or(depth, |bottom| if depth > 0.9 * bottom { bottom } else { depth });
-        ControlCylinder { centre, radius: radius + gap, depth }
+        let gap = CONTROL_SHARE * radius.max(draught);
+        ControlCylinder { centre, radius: radius + gap, depth: self.control_depth(draught + gap) }
+    }
+
+    /// A control surface around one of the bodies, with sides along a heading (rad) and its opposite: at a distance of a quarter of its extent, or
+    /// half way to the nearest other body. None where another body is beside it within the rectangle of its waterline.
+    pub fn control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
+        let corners = |which: usize| self.body_corners(which);
+        let (sine, cosine) = heading.sin_cos();
+        let axes = |at: &Vector3<f64>| [at.x * cosine + at.y * sine, at.y * cosine - at.x * sine];
+        let own = corners(body)?;
+        let limits = [0, 1].map(|axis| {
+            own.iter()
+                .map(|at| axes(at)[axis])
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
+        });
+        let draught = own.iter().fold(0.0, |most: f64, at| most.max(-at.z));
+        let middle = limits.map(|[low, high]| 0.5 * (low + high));
+        let half = limits.map(|[low, high]| 0.5 * (high - low));
+        let mut gap = CONTROL_SHARE * half[0].max(half[1]).max(draught);
+        for other in (0..).map_while(|which| Some((which, corners(which)?))).filter(|(which, _)| *which != body) {
+            for at in &other.1 {
+                let [x, y] = axes(at);
+                let beyond = ((x - middle[0]).abs() - half[0]).max((y - middle[1]).abs() - half[1]);
+                gap = gap.min(0.5 * beyond);
+            }
+        }
+        let centre = [middle[0] * cosine - middle[1] * sine, middle[0] * sine + middle[1] * cosine];
+        let depth = self.control_depth(draught + gap.max(CONTROL_SHARE * half[0].min(half[1])));
+        (gap > 0.0).then_some(ControlBox { centre, half: half.map(|half| half + gap), heading, depth })
+    }
+
+    /// A depth of a control surface (m), on the bottom where that is near.
+    fn control_depth(&self, depth: f64) -> f64 {
+        self.water().depth.map_or(depth, |bottom| if depth > 0.9 * bottom { bottom } else { depth })
     }
 }

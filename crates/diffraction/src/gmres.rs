@@ -1,6 +1,7 @@
 //! GMRES for several right sides that go through the matrix together [SAAD-SCHULTZ-1986].
 
 use nalgebra::Complex;
+use rayon::prelude::*;
 
 type C = Complex<f64>;
 
@@ -74,19 +75,13 @@ impl Krylov {
     /// Takes the product of the matrix with the last vector of the basis.
     fn extend(&mut self, mut product: Vec<C>) {
         let mut column = Vec::with_capacity(self.basis.len() + 1);
-        // twice is enough to be orthogonal to rounding
-        for pass in 0..2 {
-            for (i, own) in self.basis.iter().enumerate() {
-                let share = dot(own, &product);
-                for (value, own) in product.iter_mut().zip(own) {
-                    *value -= own * share;
-                }
-                if pass == 0 {
-                    column.push(share);
-                } else {
-                    column[i] += share;
-                }
+        // Gram and Schmidt's method one by one: stable enough for GMRES
+        for own in &self.basis {
+            let share = dot(own, &product);
+            for (value, own) in product.iter_mut().zip(own) {
+                *value -= own * share;
             }
+            column.push(share);
         }
         let size = norm(&product);
         for (i, (cosine, sine)) in self.rotations.iter().enumerate() {
@@ -155,9 +150,11 @@ pub fn solve(
             }
             let products = multiply_roughly(&vectors);
             uses += 1;
-            for (position, index) in active.iter().enumerate() {
-                spaces[*index].extend(products.column(position).to_vec());
-            }
+            let growing: Vec<&mut Krylov> = spaces.iter_mut().filter(|space| !space.is_done()).collect();
+            growing
+                .into_par_iter()
+                .enumerate()
+                .for_each(|(position, space)| space.extend(products.column(position).to_vec()));
         }
         for (index, space) in spaces.iter().enumerate() {
             space.add_to(solution.column_mut(index));

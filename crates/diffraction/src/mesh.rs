@@ -63,14 +63,13 @@ impl HullMesh {
     /// Meshes of several bodies as one.
     ///
     /// # Errors
-    /// No body; mirror planes of one of several bodies.
-    pub(crate) fn joined<'a>(meshes: impl ExactSizeIterator<Item = &'a HullMesh>) -> Result<Self, DiffractionError> {
-        let count = meshes.len();
+    /// No body; bodies with other mirror planes than the first.
+    pub(crate) fn joined<'a>(meshes: impl Iterator<Item = &'a HullMesh>) -> Result<Self, DiffractionError> {
         let (mut panels, mut lids) = (Vec::new(), Vec::new());
         let mut mirrors = MirrorPlanes::default();
-        for mesh in meshes {
-            if count > 1 && mesh.mirrors() != MirrorPlanes::default() {
-                return Err(DiffractionError::MirroredBodies(count));
+        for (index, mesh) in meshes.enumerate() {
+            if index > 0 && mesh.mirrors() != mirrors {
+                return Err(DiffractionError::OtherMirrors(index + 1));
             }
             mirrors = mesh.mirrors();
             panels.extend_from_slice(mesh.hull());
@@ -119,6 +118,11 @@ impl HullMesh {
             })
         };
         self.mirrors.images().into_iter().flat_map(of_image).collect()
+    }
+
+    /// The largest coordinate of its corners (m).
+    pub(crate) fn size(&self) -> f64 {
+        self.hull().iter().flat_map(|panel| panel.corners()).map(|corner| corner.amax()).fold(0.0, f64::max)
     }
 
     /// Its mirror planes.

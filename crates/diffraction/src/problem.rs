@@ -11,6 +11,7 @@ use crate::wave_solution::WaveSolution;
 use crate::wave_system::{Accuracy, WaveKernel, WaveSystem, wave_systems};
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::Arc;
 
 type C = Complex<f64>;
@@ -44,6 +45,9 @@ pub struct DiffractionBody {
     pub origin: Vector3<f64>,
 }
 
+/// The origin of a body lies on the mirror planes to this share of the size of the meshes.
+const ON_PLANE_SHARE: f64 = 1e-6;
+
 /// Bodies in water with all that does not depend on the frequency.
 #[derive(Clone, Debug)]
 pub struct DiffractionProblem {
@@ -56,6 +60,8 @@ pub struct DiffractionProblem {
     velocities: Vec<Vec<f64>>,
     rankine: Vec<RankinePart>,
     motion_count: usize,
+    /// Of each body: its panels among those of the hulls.
+    bodies: Vec<Range<usize>>,
     /// Largest horizontal distance between points of the hulls and their images (m).
     reach: f64,
     draught: f64,
@@ -110,7 +116,7 @@ impl DiffractionProblem {
     /// Prepares bodies in water.
     ///
     /// # Errors
-    /// No body; mirror planes of one of several bodies; density, gravity or depth that is not above zero; a bottom above the keel; a mesh that is
+    /// No body; bodies with other mirror planes than the first, or with origins beside them; density, gravity or depth that is not above zero; a bottom above the keel; a mesh that is
     /// open below the water or inside out; bodies that overlap or touch.
     pub fn new(bodies: &[DiffractionBody], water: Water) -> Result<Self, DiffractionError> {
         if !(water.density > 0.0 && water.gravity > 0.0 && (water.density * water.gravity).is_finite()) {
@@ -118,6 +124,12 @@ impl DiffractionProblem {
         }
         let mesh = Arc::new(HullMesh::joined(bodies.iter().map(|body| &body.mesh))?);
         let mirrors = mesh.mirrors();
+        for (index, body) in bodies.iter().enumerate() {
+            let off = |mirrored: bool, x: f64| mirrored && x.abs() > ON_PLANE_SHARE * mesh.size();
+            if off(mirrors.x, body.origin.x) || off(mirrors.y, body.origin.y) {
+                return Err(DiffractionError::OriginOffMirror(index + 1));
+            }
+        }
         let classes = SymmetryClass::all(mirrors);
         let motions: Vec<Vec<usize>> = classes
             .iter()
@@ -156,7 +168,27 @@ impl DiffractionProblem {
         let reach = extent(0, mirrors.x).hypot(extent(1, mirrors.y));
         let rankine = rankine_parts(&mesh, &classes, &velocities, &LevelImage::of_all_frequencies(water.depth));
         let motion_count = MOTIONS * bodies.len();
-        Ok(DiffractionProblem { mesh, water, classes, motions, velocities, rankine, motion_count, reach, draught })
+        let mut first = 0;
+        let bodies = bodies
+            .iter()
+            .map(|body| {
+                let own = first..first + body.mesh.hull().len();
+                first = own.end;
+                own
+            })
+            .collect();
+        Ok(DiffractionProblem {
+            mesh,
+            water,
+            classes,
+            motions,
+            velocities,
+            rankine,
+            motion_count,
+            bodies,
+            reach,
+            draught,
+        })
     }
 
     /// Density, gravity and depth.
@@ -183,6 +215,14 @@ impl DiffractionProblem {
         (middle, radius, self.draught)
     }
 
+    /// Corners of the panels of a body and of their images; none where there is no such body.
+    pub(crate) fn body_corners(&self, body: usize) -> Option<Vec<Vector3<f64>>> {
+        let panels = self.mesh.hull().get(self.bodies.get(body)?.clone())?;
+        let images = self.mesh.mirrors().images();
+        let corners = || panels.iter().flat_map(|panel| panel.corners());
+        Some(images.iter().flat_map(|image| corners().map(|corner| mirrored(corner, *image))).collect())
+    }
+
     /// The added mass (kg, kg m, kg m2) at the zero or the infinite frequency, where there are no waves and no damping.
     ///
     /// # Errors
@@ -206,7 +246,7 @@ impl DiffractionProblem {
         let images = mesh.mirrors().images().len() as f64;
         let mut added_mass = DMatrix::zeros(self.motion_count, self.motion_count);
         for ((part, motions), velocities) in parts.iter().zip(&self.motions).zip(&velocities) {
-            let system = WaveSystem::from_rankine(part, count, count, 0.0);
+            let system = WaveSystem::from_rankine(part, count);
             let (solved, _) = solve_system(&system, &system.radiation).ok_or(DiffractionError::NoLimit)?;
             for (column, motion) in motions.iter().enumerate() {
                 for (row, force) in motions.iter().enumerate() {
@@ -392,6 +432,7 @@ fn check_apart(bodies: &[DiffractionBody]) -> Result<(), DiffractionError> {
     let all: Vec<_> = bodies.iter().map(|body| limits(&body.mesh)).collect();
     for (first, body) in bodies.iter().enumerate() {
         for (second, other) in bodies.iter().enumerate().filter(|(second, _)| *second != first) {
+            let images = other.mesh.mirrors().images();
             let is_near = |at: &Vector3<f64>| {
                 all[second].iter().zip(at.iter()).all(|([low, high], x)| {
                     let room = 1e-9 * (high - low);
@@ -399,8 +440,11 @@ fn check_apart(bodies: &[DiffractionBody]) -> Result<(), DiffractionError> {
                 })
             };
             let angle = |at: &Vector3<f64>| -> f64 {
-                let image = Vector3::new(at.x, at.y, -at.z);
-                other.mesh.hull().iter().map(|panel| panel.rankine(at)[1] + panel.rankine(&image)[1]).sum()
+                let seen = images.iter().flat_map(|image| {
+                    let from = mirrored(at, *image);
+                    [from, Vector3::new(from.x, from.y, -from.z)]
+                });
+                seen.map(|from| other.mesh.hull().iter().map(|panel| panel.rankine(&from)[1]).sum::<f64>()).sum()
             };
             for panel in body.mesh.hull() {
                 // a centroid on a face of the other sees half a sphere; a corner on its edges may see three quarters

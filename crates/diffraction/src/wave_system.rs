@@ -20,14 +20,35 @@ const LANES: usize = 8;
 /// Distance from the image of a panel, in its diagonals, within which the wave part is taken at four points.
 const NEAR_DIAGONALS: f64 = 3.0;
 
+/// The parts of a matrix between two blocks of panels: the rows of the first with the columns of the second, and the other way round, which a
+/// block with itself has not. Each row by row.
+type Tiles = [Vec<Complex<f32>>; 2];
+
 /// The system of a symmetry class: matrix and right sides of the radiation problems.
 #[derive(Clone, Debug)]
 pub struct WaveSystem {
     count: usize,
-    /// Row by row, real and imaginary parts.
-    matrix: Vec<Complex<f32>>,
+    /// Of the pairs of blocks in the order of [`block_pairs`].
+    tiles: Vec<Tiles>,
     /// Right sides of the motions of the class.
     pub radiation: Columns,
+}
+
+/// The panels of a block.
+fn block_range(block: usize, count: usize) -> Range<usize> {
+    block * BLOCK..((block + 1) * BLOCK).min(count)
+}
+
+/// All pairs of blocks of so many panels, the first not behind the second.
+fn block_pairs(count: usize) -> Vec<[usize; 2]> {
+    let blocks = count.div_ceil(BLOCK);
+    (0..blocks).flat_map(|i| (i..blocks).map(move |j| [i, j])).collect()
+}
+
+/// The place of a pair in [`block_pairs`].
+fn pair_index([first, second]: [usize; 2], count: usize) -> usize {
+    let blocks = count.div_ceil(BLOCK);
+    first * blocks - first * first.saturating_sub(1) / 2 + second - first
 }
 
 /// The part of the Green function that depends on the frequency.
@@ -61,15 +82,40 @@ impl WaveKernel {
         }
     }
 
-    /// The potential over a panel, and the derivative along its normal into the water: at its centroid, or near its image at four points.
-    pub fn over_panel(&self, from: &Vector3<f64>, panel: &Panel) -> (C, C) {
-        let arm = panel.centroid - from;
-        let above = panel.centroid.z + from.z;
-        let distance2 = arm.x * arm.x + arm.y * arm.y;
-        if distance2 + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2) {
-            return self.over_points(from, panel);
+    /// The potentials over panels from one point, and the derivatives along their normals into the water: at their centroids, or near their images
+    /// at four points.
+    pub fn over_panels(&self, from: &Vector3<f64>, panels: &[Panel]) -> Vec<(C, C)> {
+        let (mut x, mut y) = (Vec::with_capacity(panels.len()), Vec::with_capacity(panels.len()));
+        for panel in panels {
+            let arm = panel.centroid - from;
+            x.push(self.nu * (arm.x * arm.x + arm.y * arm.y).sqrt());
+            // at the surface itself the wave part has no limit: those panels are near
+            y.push((-self.nu * (panel.centroid.z + from.z)).max(f64::MIN_POSITIVE));
         }
-        self.over_point(from, panel, &panel.centroid, panel.area)
+        let mut batch = WavePartBatch::default();
+        self.deep.evaluate_batch(&x, &y, &mut batch);
+        let distance = |panel: &Panel| {
+            let arm = panel.centroid - from;
+            (arm.x * arm.x + arm.y * arm.y).sqrt()
+        };
+        let of = |(index, panel): (usize, &Panel)| {
+            let (distance, above) = (distance(panel), panel.centroid.z + from.z);
+            if distance * distance + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2) {
+                return self.over_points(from, panel);
+            }
+            let part = WavePart {
+                value: C::new(batch.re[index], batch.im[index]),
+                by_x: C::new(batch.re_by_x[index], batch.im_by_x[index]),
+            };
+            let found = FrequencyPart::from_wave_part(part, self.nu, [x[index], y[index]]);
+            let found = match &self.bottom {
+                None => found,
+                Some(bottom) => bottom.correct(found, distance, [from.z, panel.centroid.z]),
+            };
+            let (value, by_normal) = Self::on_panel(&found, from, panel, &panel.centroid);
+            (value * panel.area, by_normal * panel.area)
+        };
+        panels.iter().enumerate().map(of).collect()
     }
 
     /// Over a panel at four points: the potential, and the derivative along its normal into the water.
@@ -134,17 +180,10 @@ impl WaveKernel {
     }
 }
 
-/// What a block of panels and another do to each other, class by class.
-struct BlockPair {
-    blocks: [usize; 2],
-    classes: Vec<ClassPair>,
-}
-
-/// The same for one class: entries of the matrix and parts of the right sides, of the first block and of the second.
+/// What a block of panels and another do to each other in one class.
 struct ClassPair {
-    /// Both by rows of the first block.
-    entries: [Vec<Complex<f32>>; 2],
-    /// Panel by panel and then motion by motion.
+    tiles: Tiles,
+    /// Parts of the right sides of the first block and of the second, panel by panel and then motion by motion.
     sides: [Vec<C>; 2],
 }
 
@@ -184,17 +223,27 @@ impl PanelArrays {
     }
 }
 
-/// The frequency's part of the Green function between the panels of two blocks, row by row; real and imaginary parts.
+/// Real and imaginary parts of a quantity between the panels of two blocks, by rows of the first.
+type BlockValues = [Vec<f64>; 2];
+
+/// The frequency's part of the Green function between the panels of two blocks; its room serves one pair after the other.
 #[derive(Default)]
 struct BlockKernel {
-    value: [Vec<f64>; 2],
-    by_distance: [Vec<f64>; 2],
-    /// By the height of the panel of the first block, and of the second.
-    by_heights: [[Vec<f64>; 2]; 2],
+    value: BlockValues,
+    by_distance: BlockValues,
+    /// By the height of the panel of the first block, and of the second where that differs.
+    by_heights: [BlockValues; 2],
     /// Horizontal unit vector from the first to the second.
     direction: [Vec<f64>; 2],
     /// Panels too near each other's image for one point.
     near: Vec<[usize; 2]>,
+    /// Derivatives along the normal over the panels of the second block, and over those of the first.
+    derivatives: [BlockValues; 2],
+    /// X and Y of the wave part, horizontal distances (m), and the wave part.
+    x: Vec<f64>,
+    y: Vec<f64>,
+    distances: Vec<f64>,
+    batch: WavePartBatch,
 }
 
 /// The systems of all classes at a frequency.
@@ -206,54 +255,53 @@ pub fn wave_systems(
     rankine: &[RankinePart],
 ) -> Vec<WaveSystem> {
     let count = mesh.panels().len();
-    let hull = mesh.hull_count();
-    // on the lid the derivative along the normal, which points down, is -nu times the potential
-    let lid_factor = kernel.nu as f32;
-    let blocks = count.div_ceil(BLOCK);
-    let pairs: Vec<[usize; 2]> = (0..blocks).flat_map(|i| (i..blocks).map(move |j| [i, j])).collect();
-    let mut systems: Vec<WaveSystem> =
-        rankine.iter().map(|part| WaveSystem::from_rankine(part, count, hull, lid_factor)).collect();
     let arrays = PanelArrays::new(mesh, kernel.nu, velocities);
-    // so many pairs at a time that what waits to be added stays small
-    for some in pairs.chunks(4 * rayon::current_num_threads().max(1)) {
-        let made: Vec<BlockPair> =
-            some.par_iter().map(|blocks| block_pair(kernel, mesh, classes, &arrays, *blocks)).collect();
-        for pair in made {
-            for (system, class) in systems.iter_mut().zip(pair.classes) {
-                system.add(pair.blocks, &class);
-            }
+    let pairs = block_pairs(count);
+    let made: Vec<Vec<ClassPair>> = pairs
+        .par_iter()
+        .map_init(BlockKernel::default, |room, blocks| {
+            block_pair(room, kernel, mesh, classes, &arrays, rankine, *blocks)
+        })
+        .collect();
+    let mut systems: Vec<WaveSystem> =
+        rankine.iter().map(|part| WaveSystem::without_tiles(part, count, pairs.len())).collect();
+    for (blocks, of_classes) in pairs.iter().zip(made) {
+        for (system, class) in systems.iter_mut().zip(of_classes) {
+            system.add_sides(*blocks, &class.sides);
+            system.tiles.push(class.tiles);
         }
     }
     systems
 }
 
 fn block_pair(
+    block: &mut BlockKernel,
     kernel: &WaveKernel,
     mesh: &HullMesh,
     classes: &[SymmetryClass],
     arrays: &PanelArrays,
+    rankine: &[RankinePart],
     blocks: [usize; 2],
-) -> BlockPair {
+) -> Vec<ClassPair> {
     let panels = mesh.panels();
-    let [rows, columns] = blocks.map(|block| block * BLOCK..((block + 1) * BLOCK).min(panels.len()));
+    let [rows, columns] = blocks.map(|block| block_range(block, panels.len()));
     let width = columns.len();
-    let size = rows.len() * width;
     // within one block each panel is a row, and the other way is the same once more
     let ways = if blocks[0] == blocks[1] { 1 } else { 2 };
     let motions: Vec<usize> = arrays.fluxes.iter().map(|fluxes| fluxes.len() / panels.len()).collect();
+    // on the lid the derivative along the normal, which points down, is -nu times the potential
+    let lid_factor = kernel.nu as f32;
     let mut made: Vec<ClassPair> = motions
         .iter()
-        .map(|motions| ClassPair {
-            entries: [vec![Complex::default(); size], vec![Complex::default(); if ways == 2 { size } else { 0 }]],
+        .zip(rankine)
+        .map(|(motions, part)| ClassPair {
+            tiles: rankine_tiles(part, [panels.len(), mesh.hull_count()], lid_factor, blocks),
             sides: [vec![C::default(); rows.len() * motions], vec![C::default(); width * motions]],
         })
         .collect();
     for image in mesh.mirrors().images() {
-        let mut block = kernel.over_block(arrays, &rows, &columns, image);
-        let derivatives = [
-            block.derivatives(arrays, &rows, &columns, [1.0; 2], 0),
-            if ways == 2 { block.derivatives(arrays, &rows, &columns, image, 1) } else { Default::default() },
-        ];
+        kernel.over_block(block, arrays, &rows, &columns, image);
+        block.differentiate(arrays, &rows, &columns, image, ways);
         let near_pairs = std::mem::take(&mut block.near);
         let views: Vec<_> = near_pairs
             .iter()
@@ -269,10 +317,10 @@ fn block_pair(
             classes.iter().zip(&mut made).zip(arrays.fluxes.iter().zip(motions.iter().copied()))
         {
             let factor = class.factor(image);
-            for (entries, [re, im]) in made.entries.iter_mut().zip(&derivatives) {
-                for ((entry, re), im) in entries.iter_mut().zip(re).zip(im) {
-                    *entry += Complex::new((factor * re) as f32, (factor * im) as f32);
-                }
+            let [first, second] = &mut made.tiles;
+            add_tile(first, &block.derivatives[0], factor);
+            if ways == 2 {
+                add_turned_tile(second, &block.derivatives[1], width, factor);
             }
             let [first, second] = [&rows, &columns].map(|range| &fluxes[range.start * motions..range.end * motions]);
             add_sides(&block.value, width, second, factor, &mut made.sides[0], false);
@@ -285,8 +333,8 @@ fn block_pair(
                     let (potential, derivative) = parts[way];
                     // on the lid the derivative is that of the condition at the surface
                     let by_normal = if source < mesh.hull_count() { -derivative } else { potential * kernel.nu };
-                    made.entries[way][row * width + column] +=
-                        Complex::new((factor * by_normal.re) as f32, (factor * by_normal.im) as f32);
+                    let at = if way == 0 { row * width + column } else { column * rows.len() + row };
+                    made.tiles[way][at] += Complex::new((factor * by_normal.re) as f32, (factor * by_normal.im) as f32);
                     let area = panels[source].area;
                     for motion in 0..motions {
                         made.sides[way][own * motions + motion] +=
@@ -296,12 +344,49 @@ fn block_pair(
             }
         }
     }
-    BlockPair { blocks, classes: made }
+    made
+}
+
+/// The part of the tiles of a pair that does not depend on the frequency but by the factor of the lid; `counts` are those of all panels and of
+/// those of the hull.
+fn rankine_tiles(part: &RankinePart, [count, hull]: [usize; 2], lid_factor: f32, blocks: [usize; 2]) -> Tiles {
+    let [first, second] = blocks.map(|block| block_range(block, count));
+    let tile = |rows: &Range<usize>, columns: &Range<usize>| {
+        let mut tile = Vec::with_capacity(rows.len() * columns.len());
+        for i in rows.clone() {
+            let row = &part.double_layer[i * count..(i + 1) * count];
+            tile.extend(columns.clone().map(|j| {
+                let factor = if j < hull { 1.0 } else { lid_factor };
+                let own = if i < hull { 2.0 * std::f32::consts::PI } else { 4.0 * std::f32::consts::PI };
+                Complex::new(row[j] * factor + if i == j { own } else { 0.0 }, 0.0)
+            }));
+        }
+        tile
+    };
+    [tile(&first, &second), if blocks[0] == blocks[1] { Vec::new() } else { tile(&second, &first) }]
+}
+
+/// Adds real and imaginary parts times a factor to a tile.
+fn add_tile(tile: &mut [Complex<f32>], [re, im]: &[Vec<f64>; 2], factor: f64) {
+    for ((entry, re), im) in tile.iter_mut().zip(re).zip(im) {
+        *entry += Complex::new((factor * re) as f32, (factor * im) as f32);
+    }
+}
+
+/// The same with parts that lie by the columns of the tile, `width` of them a column.
+fn add_turned_tile(tile: &mut [Complex<f32>], [re, im]: &[Vec<f64>; 2], width: usize, factor: f64) {
+    let height = re.len() / width;
+    for (row, entries) in tile.chunks_exact_mut(height).enumerate() {
+        let parts = re[row..].iter().step_by(width).zip(im[row..].iter().step_by(width));
+        for (entry, (re, im)) in entries.iter_mut().zip(parts) {
+            *entry += Complex::new((factor * re) as f32, (factor * im) as f32);
+        }
+    }
 }
 
 /// Adds to right sides the potentials of the fluxes of the other block: of rows of the kernel, or turned of its columns. Compiled as
-/// [`multiply_rows`].
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+/// [`add_products`].
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
 fn add_sides(values: &[Vec<f64>; 2], width: usize, fluxes: &[f64], factor: f64, sides: &mut [C], turned: bool) {
     let height = values[0].len() / width;
     let (count, others) = if turned { (width, height) } else { (height, width) };
@@ -335,26 +420,24 @@ impl WaveKernel {
     /// Between the centroids of two blocks, the first seen in a mirror.
     fn over_block(
         &self,
+        made: &mut BlockKernel,
         arrays: &PanelArrays,
         rows: &Range<usize>,
         columns: &Range<usize>,
         image: [f64; 2],
-    ) -> BlockKernel {
-        let size = rows.len() * columns.len();
-        let mut made = BlockKernel::default();
-        let (mut x, mut y, mut distances) = (Vec::new(), Vec::new(), Vec::new());
+    ) {
+        let width = columns.len();
+        let size = rows.len() * width;
+        made.resize(size, self.bottom.is_some());
+        let BlockKernel { value, by_distance, by_heights, direction, near, x, y, distances, batch, .. } = made;
         let [xs, ys, zs] = &arrays.centroid;
-        let [along, across] = &mut made.direction;
-        for part in [&mut x, &mut y, &mut distances, along, across] {
-            part.resize(size, 0.0);
-        }
+        let [along, across] = direction;
         let others = ColumnPoints {
             x: &xs[columns.clone()],
             y: &ys[columns.clone()],
             z: &zs[columns.clone()],
             near: &arrays.near[columns.clone()],
         };
-        let width = columns.len();
         for (row, i) in rows.clone().enumerate() {
             let own = row * width..(row + 1) * width;
             let from = [image[0] * xs[i], image[1] * ys[i], zs[i], arrays.near[i]];
@@ -365,49 +448,85 @@ impl WaveKernel {
                 &mut along[own.clone()],
                 &mut across[own.clone()],
             ];
-            others.seen_from(from, self.nu, out);
-            made.near.extend(y[own].iter().zip(columns.clone()).filter(|(y, _)| **y < 0.0).map(|(_, j)| [i, j]));
+            see_columns(&others, from, self.nu, out);
+            let nears = y[own].iter().zip(columns.clone()).filter(|(y, _)| **y < 0.0);
+            near.extend(nears.map(|(_, j)| [i, j]));
         }
         // what is near is taken elsewhere
-        for [i, j] in &made.near {
-            let at = (i - rows.start) * width + j - columns.start;
+        let place = |[i, j]: &[usize; 2]| (i - rows.start) * width + j - columns.start;
+        for at in near.iter().map(place) {
             (x[at], y[at]) = (1.0, 1.0);
         }
-        let mut batch = WavePartBatch::default();
-        self.deep.evaluate_batch(&x, &y, &mut batch);
-        let (nu, square) = (self.nu, self.nu * self.nu);
-        let height: Vec<f64> =
-            x.iter().zip(&y).zip(&batch.re).map(|((x, y), re)| square * (re + 2.0 / (x * x + y * y).sqrt())).collect();
-        let scaled = |part: Vec<f64>, factor: f64| -> Vec<f64> { part.into_iter().map(|v| v * factor).collect() };
-        let im_by_height = scaled(batch.im.clone(), square);
-        made.value = [scaled(batch.re, nu), scaled(batch.im, nu)];
-        made.by_distance = [scaled(batch.re_by_x, square), scaled(batch.im_by_x, square)];
-        made.by_heights = [[height.clone(), im_by_height.clone()], [height, im_by_height]];
+        self.deep.evaluate_batch(x, y, batch);
+        let [first, second] = by_heights;
+        scale_wave_part([x, y], batch, self.nu, [value, by_distance, first]);
         if let Some(bottom) = &self.bottom {
+            second.clone_from(first);
             for (row, i) in rows.clone().enumerate() {
                 for (column, j) in columns.clone().enumerate() {
-                    let at = row * columns.len() + column;
+                    let at = row * width + column;
                     let deep = made.part(at);
-                    made.set(at, bottom.correct(deep, distances[at], [zs[i], zs[j]]));
+                    let corrected = bottom.correct(deep, made.distances[at], [zs[i], zs[j]]);
+                    made.set(at, corrected);
                 }
             }
         }
-        for [i, j] in std::mem::take(&mut made.near) {
-            made.set((i - rows.start) * columns.len() + j - columns.start, FrequencyPart::default());
-            made.near.push([i, j]);
+        for index in 0..made.near.len() {
+            made.set(place(&made.near[index]), FrequencyPart::default());
         }
-        made
+    }
+}
+
+/// Scales the wave part at X and Y: the part of deep water, its derivatives by the distance and by a height.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn scale_wave_part(
+    [x, y]: [&[f64]; 2],
+    batch: &WavePartBatch,
+    nu: f64,
+    [value, by_distance, by_height]: [&mut BlockValues; 3],
+) {
+    let count = x.len();
+    let square = nu * nu;
+    let [re, im, re_by_x, im_by_x] = [&batch.re, &batch.im, &batch.re_by_x, &batch.im_by_x].map(|part| &part[..count]);
+    let y = &y[..count];
+    let [[value, value_im], [slope, slope_im], [height, height_im]] =
+        [value, by_distance, by_height].map(|[re, im]| [&mut re[..count], &mut im[..count]]);
+    for at in 0..count {
+        value[at] = nu * re[at];
+        value_im[at] = nu * im[at];
+        slope[at] = square * re_by_x[at];
+        slope_im[at] = square * im_by_x[at];
+        height[at] = square * (re[at] + 2.0 / (x[at] * x[at] + y[at] * y[at]).sqrt());
+        height_im[at] = square * im[at];
     }
 }
 
 impl BlockKernel {
+    /// Makes room for so many pairs of panels; those of a bottom have derivatives by both heights.
+    fn resize(&mut self, size: usize, has_bottom: bool) {
+        let [first, second] = &mut self.by_heights;
+        let values = [&mut self.value, &mut self.by_distance, first, &mut self.direction].into_iter().flatten();
+        for part in values.chain([&mut self.x, &mut self.y, &mut self.distances]) {
+            part.resize(size, 0.0);
+        }
+        for part in second {
+            part.resize(if has_bottom { size } else { 0 }, 0.0);
+        }
+        self.near.clear();
+    }
+
     fn part(&self, at: usize) -> FrequencyPart {
-        let of = |[re, im]: &[Vec<f64>; 2]| C::new(re[at], im[at]);
+        let of = |[re, im]: &BlockValues| C::new(re[at], im[at]);
         FrequencyPart {
             value: of(&self.value),
             by_distance: of(&self.by_distance),
-            by_heights: [of(&self.by_heights[0]), of(&self.by_heights[1])],
+            by_heights: [of(&self.by_heights[0]), of(self.by_height(1))],
         }
+    }
+
+    /// The derivative by the height of the panel of the first block, or of the second.
+    fn by_height(&self, which: usize) -> &BlockValues {
+        &self.by_heights[if self.by_heights[1][0].is_empty() { 0 } else { which }]
     }
 
     fn set(&mut self, at: usize, part: FrequencyPart) {
@@ -418,44 +537,48 @@ impl BlockKernel {
             (first, part.by_heights[0]),
             (second, part.by_heights[1]),
         ] {
-            (re[at], im[at]) = (value.re, value.im);
+            // there is no second where it is the first
+            if let (Some(re), Some(im)) = (re.get_mut(at), im.get_mut(at)) {
+                (*re, *im) = (value.re, value.im);
+            }
         }
     }
 
-    /// The derivatives along the normals out of the water over the panels of the second block (way 0), or over those of the first (way 1),
-    /// seen from the other; `signs` are those of the direction. Row by row of the first block.
-    fn derivatives(
-        &self,
+    /// The derivatives along the normals out of the water over the panels of the second block, and with two ways over those of the first, seen
+    /// from the other. Row by row of the first block, which is seen in a mirror.
+    fn differentiate(
+        &mut self,
         arrays: &PanelArrays,
         rows: &Range<usize>,
         columns: &Range<usize>,
-        signs: [f64; 2],
-        way: usize,
-    ) -> [Vec<f64>; 2] {
-        let by_height = &self.by_heights[1 - way];
-        [0, 1].map(|part| {
-            let mut made = vec![0.0; self.value[part].len()];
-            let width = columns.len();
+        image: [f64; 2],
+        ways: usize,
+    ) {
+        let width = columns.len();
+        let mut made = std::mem::take(&mut self.derivatives);
+        for (way, made) in made.iter_mut().enumerate().take(ways) {
+            made.iter_mut().for_each(|part| part.resize(rows.len() * width, 0.0));
+            let [re, im] = made;
             for (row, i) in rows.clone().enumerate() {
                 let own = row * width..(row + 1) * width;
                 let kernel = KernelRow {
-                    value: &self.value[part][own.clone()],
-                    by_distance: &self.by_distance[part][own.clone()],
-                    by_height: &by_height[part][own.clone()],
-                    direction: [&self.direction[0][own.clone()], &self.direction[1][own.clone()]],
+                    value: [0, 1].map(|part| &self.value[part][own.clone()]),
+                    by_distance: [0, 1].map(|part| &self.by_distance[part][own.clone()]),
+                    by_height: [0, 1].map(|part| &self.by_height(1 - way)[part][own.clone()]),
+                    direction: [0, 1].map(|axis| &self.direction[axis][own.clone()]),
                 };
-                let out = &mut made[own];
+                let out = [&mut re[own.clone()], &mut im[own.clone()]];
                 if way == 0 {
                     let vectors = [0, 1, 2].map(|axis| &arrays.area_vector[axis][columns.clone()]);
-                    kernel.toward_columns(vectors, &arrays.lid[columns.clone()], out);
+                    toward_columns(&kernel, vectors, &arrays.lid[columns.clone()], out);
                 } else {
                     // seen from the other side the arm is the mirrored one, turned round
                     let [x, y, z] = [0, 1, 2].map(|axis| arrays.area_vector[axis][i]);
-                    kernel.toward_row([-signs[0] * x, -signs[1] * y, z], arrays.lid[i], out);
+                    toward_row(&kernel, [-image[0] * x, -image[1] * y, z], arrays.lid[i], out);
                 }
             }
-            made
-        })
+        }
+        self.derivatives = made;
     }
 }
 
@@ -467,64 +590,76 @@ struct ColumnPoints<'a> {
     near: &'a [f64],
 }
 
-impl ColumnPoints<'_> {
-    /// From a point x, y, z that is too near within the root of its fourth number: X, Y, the horizontal distance, and the unit vector along
-    /// it. Y is -1 where it is too near.
-    fn seen_from(&self, [px, py, pz, near]: [f64; 4], nu: f64, out: [&mut [f64]; 5]) {
-        let count = self.x.len();
-        let (xs, ys, zs, nears) = (&self.x[..count], &self.y[..count], &self.z[..count], &self.near[..count]);
-        let [x, y, distances, along, across] = out.map(|part| &mut part[..count]);
-        for j in 0..count {
-            let (dx, dy, above) = (xs[j] - px, ys[j] - py, pz + zs[j]);
-            let distance2 = dx * dx + dy * dy;
-            let distance = distance2.sqrt();
-            let over = if distance > 0.0 { 1.0 / distance } else { 0.0 };
-            let is_near = distance2 + above * above < near.max(nears[j]);
-            x[j] = nu * distance;
-            y[j] = if is_near { -1.0 } else { -nu * above };
-            distances[j] = distance;
-            along[j] = dx * over;
-            across[j] = dy * over;
-        }
+/// From a point x, y, z that is too near within the root of its fourth number: X, Y, the horizontal distance, and the unit vector along
+/// it. Y is -1 where it is too near.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn see_columns(others: &ColumnPoints, [px, py, pz, near]: [f64; 4], nu: f64, out: [&mut [f64]; 5]) {
+    let count = others.x.len();
+    let (xs, ys, zs, nears) = (&others.x[..count], &others.y[..count], &others.z[..count], &others.near[..count]);
+    let [x, y, distances, along, across] = out.map(|part| &mut part[..count]);
+    for j in 0..count {
+        let (dx, dy, above) = (xs[j] - px, ys[j] - py, pz + zs[j]);
+        let distance2 = dx * dx + dy * dy;
+        let distance = distance2.sqrt();
+        let over = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+        let is_near = distance2 + above * above < near.max(nears[j]);
+        x[j] = nu * distance;
+        y[j] = if is_near { -1.0 } else { -nu * above };
+        distances[j] = distance;
+        along[j] = dx * over;
+        across[j] = dy * over;
     }
 }
 
-/// A row of a block.
+/// A row of a block: real and imaginary parts.
 struct KernelRow<'a> {
-    value: &'a [f64],
-    by_distance: &'a [f64],
-    by_height: &'a [f64],
+    value: [&'a [f64]; 2],
+    by_distance: [&'a [f64]; 2],
+    by_height: [&'a [f64]; 2],
     direction: [&'a [f64]; 2],
 }
 
-impl KernelRow<'_> {
-    fn toward_columns(&self, [x, y, z]: [&[f64]; 3], lid: &[f64], out: &mut [f64]) {
-        let count = out.len();
-        let (value, by_distance, by_height) =
-            (&self.value[..count], &self.by_distance[..count], &self.by_height[..count]);
-        let (along, across) = (&self.direction[0][..count], &self.direction[1][..count]);
-        let (x, y, z, lid) = (&x[..count], &y[..count], &z[..count], &lid[..count]);
-        for j in 0..count {
-            let normal = along[j] * x[j] + across[j] * y[j];
-            out[j] = value[j] * lid[j] - by_distance[j] * normal - by_height[j] * z[j];
-        }
+/// Derivatives along the normals of the columns.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn toward_columns(kernel: &KernelRow, [x, y, z]: [&[f64]; 3], lid: &[f64], out: [&mut [f64]; 2]) {
+    let count = lid.len();
+    let [along, across] = kernel.direction.map(|part| &part[..count]);
+    let (x, y, z, lid) = (&x[..count], &y[..count], &z[..count], &lid[..count]);
+    let parts = [kernel.value, kernel.by_distance, kernel.by_height].map(|of| of.map(|part| &part[..count]));
+    let [re, im] = out.map(|part| &mut part[..count]);
+    for j in 0..count {
+        let normal = along[j] * x[j] + across[j] * y[j];
+        re[j] = parts[0][0][j] * lid[j] - parts[1][0][j] * normal - parts[2][0][j] * z[j];
+        im[j] = parts[0][1][j] * lid[j] - parts[1][1][j] * normal - parts[2][1][j] * z[j];
     }
+}
 
-    fn toward_row(&self, [x, y, z]: [f64; 3], lid: f64, out: &mut [f64]) {
-        let count = out.len();
-        let (value, by_distance, by_height) =
-            (&self.value[..count], &self.by_distance[..count], &self.by_height[..count]);
-        let (along, across) = (&self.direction[0][..count], &self.direction[1][..count]);
-        for j in 0..count {
-            let normal = along[j] * x + across[j] * y;
-            out[j] = value[j] * lid - by_distance[j] * normal - by_height[j] * z;
-        }
+/// Derivatives along the normal of the row.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn toward_row(kernel: &KernelRow, [x, y, z]: [f64; 3], lid: f64, out: [&mut [f64]; 2]) {
+    let [re, im] = out;
+    let count = re.len();
+    let [along, across] = kernel.direction.map(|part| &part[..count]);
+    let parts = [kernel.value, kernel.by_distance, kernel.by_height].map(|of| of.map(|part| &part[..count]));
+    let (re, im) = (&mut re[..count], &mut im[..count]);
+    for j in 0..count {
+        let normal = along[j] * x + across[j] * y;
+        re[j] = parts[0][0][j] * lid - parts[1][0][j] * normal - parts[2][0][j] * z;
+        im[j] = parts[0][1][j] * lid - parts[1][1][j] * normal - parts[2][1][j] * z;
     }
 }
 
 impl WaveSystem {
-    /// The part that does not depend on the frequency; `lid_factor` is `nu` (1/m).
-    pub fn from_rankine(part: &RankinePart, count: usize, hull: usize, lid_factor: f32) -> Self {
+    /// The system without waves.
+    pub fn from_rankine(part: &RankinePart, count: usize) -> Self {
+        let pairs = block_pairs(count);
+        let mut system = Self::without_tiles(part, count, pairs.len());
+        system.tiles = pairs.par_iter().map(|blocks| rankine_tiles(part, [count, count], 0.0, *blocks)).collect();
+        system
+    }
+
+    /// Its right sides, and room for tiles.
+    fn without_tiles(part: &RankinePart, count: usize, pairs: usize) -> Self {
         let motions = part.single_layer.len() / count;
         let mut radiation = Columns::zeros(count, motions);
         for motion in 0..motions {
@@ -534,41 +669,32 @@ impl WaveSystem {
                 *value = C::new(*part, 0.0);
             }
         }
-        let mut matrix: Vec<_> = part.double_layer.iter().map(|re| Complex::new(*re, 0.0)).collect();
-        for (i, row) in matrix.chunks_exact_mut(count).enumerate() {
-            for entry in row.iter_mut().skip(hull) {
-                *entry *= lid_factor;
-            }
-            row[i] += if i < hull { 2.0 * std::f32::consts::PI } else { 4.0 * std::f32::consts::PI };
-        }
-        WaveSystem { count, matrix, radiation }
+        WaveSystem { count, tiles: Vec::with_capacity(pairs), radiation }
     }
 
-    fn add(&mut self, blocks: [usize; 2], ClassPair { entries, sides }: &ClassPair) {
+    fn add_sides(&mut self, blocks: [usize; 2], sides: &[Vec<C>; 2]) {
         let motions = self.radiation.count();
-        let [rows, columns] = blocks.map(|block| block * BLOCK..((block + 1) * BLOCK).min(self.count));
-        let width = columns.len();
-        for (row, values) in rows.clone().zip(entries[0].chunks_exact(width)) {
-            for (entry, value) in self.matrix[row * self.count..][columns.clone()].iter_mut().zip(values) {
-                *entry += value;
-            }
-        }
-        for (row, column) in columns.clone().zip(0..if entries[1].is_empty() { 0 } else { width }) {
-            let values = entries[1].iter().skip(column).step_by(width);
-            for (entry, value) in self.matrix[row * self.count..][rows.clone()].iter_mut().zip(values) {
-                *entry += value;
-            }
-        }
-        for (range, sides) in [rows, columns].into_iter().zip(sides) {
+        let ranges = blocks.map(|block| block_range(block, self.count));
+        for (range, sides) in ranges.into_iter().zip(sides) {
             for (index, value) in sides.iter().enumerate() {
                 self.radiation.column_mut(index % motions)[range.start + index / motions] += value;
             }
         }
     }
 
+    /// The tile of a row and a column of blocks.
+    fn tile(&self, row: usize, column: usize) -> &[Complex<f32>] {
+        if row <= column {
+            &self.tiles[pair_index([row, column], self.count)][0]
+        } else {
+            &self.tiles[pair_index([column, row], self.count)][1]
+        }
+    }
+
     /// The products of the matrix with vectors.
     pub fn multiply(&self, vectors: &Columns, accuracy: Accuracy) -> Columns {
         let mut made = Columns::zeros(self.count, vectors.count());
+        let blocks = self.count.div_ceil(BLOCK);
         for first in (0..vectors.count()).step_by(LANES) {
             let lanes = first..(first + LANES).min(vectors.count());
             let packed: Vec<[[f64; LANES]; 2]> = (0..self.count)
@@ -586,14 +712,16 @@ impl WaveSystem {
             } else {
                 Vec::new()
             };
-            let products: Vec<[[f64; LANES]; 2]> = self
-                .matrix
-                .par_chunks(self.count * BLOCK)
-                .flat_map_iter(|rows| {
-                    let mut products = vec![[[0.0; LANES]; 2]; rows.len() / self.count];
-                    match accuracy {
-                        Accuracy::Full => multiply_rows(rows, &packed, &mut products),
-                        Accuracy::Rough => multiply_rows_roughly(rows, &narrow, &mut products),
+            let products: Vec<[[f64; LANES]; 2]> = (0..blocks)
+                .into_par_iter()
+                .flat_map_iter(|row| {
+                    let mut products = vec![[[0.0; LANES]; 2]; block_range(row, self.count).len()];
+                    for column in 0..blocks {
+                        let (tile, range) = (self.tile(row, column), block_range(column, self.count));
+                        match accuracy {
+                            Accuracy::Full => add_products(tile, &packed[range], &mut products),
+                            Accuracy::Rough => add_rough_products(tile, &narrow[range], &mut products),
+                        }
                     }
                     products
                 })
@@ -617,66 +745,58 @@ pub enum Accuracy {
     Rough,
 }
 
-/// As [`multiply_rows`] to single precision, real parts of the vectors before their imaginary parts.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn multiply_rows_roughly(rows: &[Complex<f32>], vectors: &[[f32; 2 * LANES]], products: &mut [[[f64; LANES]; 2]]) {
+/// As [`add_products`] to single precision, real parts of the vectors before their imaginary parts.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn add_rough_products(tile: &[Complex<f32>], vectors: &[[f32; 2 * LANES]], products: &mut [[[f64; LANES]; 2]]) {
     let count = vectors.len();
-    for (pair, products) in rows.chunks(2 * count).zip(products.chunks_mut(2)) {
+    for (pair, products) in tile.chunks(2 * count).zip(products.chunks_mut(2)) {
         let (one, other) = pair.split_at(count);
         // a row that is left over goes with itself
         let other = if other.is_empty() { one } else { other };
-        let mut sums = [[[0.0; 2 * LANES]; 2]; 2];
-        for ((one, other), vectors) in one.chunks(BLOCK).zip(other.chunks(BLOCK)).zip(vectors.chunks(BLOCK)) {
-            let mut parts = [[[0.0_f32; 2 * LANES]; 2]; 2];
-            for ((a, b), vector) in one.iter().zip(other).zip(vectors) {
-                for lane in 0..2 * LANES {
-                    parts[0][0][lane] += a.re * vector[lane];
-                    parts[0][1][lane] += a.im * vector[lane];
-                    parts[1][0][lane] += b.re * vector[lane];
-                    parts[1][1][lane] += b.im * vector[lane];
-                }
-            }
-            for (sums, parts) in sums.iter_mut().flatten().zip(parts.iter().flatten()) {
-                for (sum, part) in sums.iter_mut().zip(parts) {
-                    *sum += f64::from(*part);
-                }
+        let mut sums = [[[0.0_f32; 2 * LANES]; 2]; 2];
+        for ((a, b), vector) in one.iter().zip(other).zip(vectors) {
+            for lane in 0..2 * LANES {
+                sums[0][0][lane] = a.re.mul_add(vector[lane], sums[0][0][lane]);
+                sums[0][1][lane] = a.im.mul_add(vector[lane], sums[0][1][lane]);
+                sums[1][0][lane] = b.re.mul_add(vector[lane], sums[1][0][lane]);
+                sums[1][1][lane] = b.im.mul_add(vector[lane], sums[1][1][lane]);
             }
         }
         for (product, [by_re, by_im]) in products.iter_mut().zip(&sums) {
             for lane in 0..LANES {
-                product[0][lane] = by_re[lane] - by_im[LANES + lane];
-                product[1][lane] = by_re[LANES + lane] + by_im[lane];
+                product[0][lane] += f64::from(by_re[lane]) - f64::from(by_im[LANES + lane]);
+                product[1][lane] += f64::from(by_re[LANES + lane]) + f64::from(by_im[lane]);
             }
         }
     }
 }
 
-/// The products of rows of a matrix with vectors side by side, real and imaginary parts apart. Compiled for several widths of vector register;
-/// no product is contracted with its sum, so all give the same digits.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
-fn multiply_rows(rows: &[Complex<f32>], vectors: &[[[f64; LANES]; 2]], products: &mut [[[f64; LANES]; 2]]) {
+/// Adds the products of a tile with vectors side by side, real and imaginary parts apart. Compiled for several widths of vector register, with
+/// products and sums that are rounded once, so that all give the same digits; a processor without such an instruction takes long.
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
+fn add_products(tile: &[Complex<f32>], vectors: &[[[f64; LANES]; 2]], products: &mut [[[f64; LANES]; 2]]) {
     let count = vectors.len();
-    for (pair, products) in rows.chunks(2 * count).zip(products.chunks_mut(2)) {
+    for (pair, products) in tile.chunks(2 * count).zip(products.chunks_mut(2)) {
         let (one, other) = pair.split_at(count);
-        if let [first, second] = products {
-            let mut sums = [[[0.0; LANES]; 2]; 2];
-            for ((a, b), [re, im]) in one.iter().zip(other).zip(vectors) {
-                let [a_re, a_im, b_re, b_im] = [a.re, a.im, b.re, b.im].map(f64::from);
-                for lane in 0..LANES {
-                    sums[0][0][lane] += a_re * re[lane] - a_im * im[lane];
-                    sums[0][1][lane] += a_re * im[lane] + a_im * re[lane];
-                    sums[1][0][lane] += b_re * re[lane] - b_im * im[lane];
-                    sums[1][1][lane] += b_re * im[lane] + b_im * re[lane];
-                }
+        let other = if other.is_empty() { one } else { other };
+        let mut sums = [[[0.0_f64; LANES]; 4]; 2];
+        for ((a, b), [re, im]) in one.iter().zip(other).zip(vectors) {
+            let [a_re, a_im, b_re, b_im] = [a.re, a.im, b.re, b.im].map(f64::from);
+            for lane in 0..LANES {
+                sums[0][0][lane] = a_re.mul_add(re[lane], sums[0][0][lane]);
+                sums[0][1][lane] = a_im.mul_add(im[lane], sums[0][1][lane]);
+                sums[0][2][lane] = a_re.mul_add(im[lane], sums[0][2][lane]);
+                sums[0][3][lane] = a_im.mul_add(re[lane], sums[0][3][lane]);
+                sums[1][0][lane] = b_re.mul_add(re[lane], sums[1][0][lane]);
+                sums[1][1][lane] = b_im.mul_add(im[lane], sums[1][1][lane]);
+                sums[1][2][lane] = b_re.mul_add(im[lane], sums[1][2][lane]);
+                sums[1][3][lane] = b_im.mul_add(re[lane], sums[1][3][lane]);
             }
-            [*first, *second] = sums;
-        } else if let [last] = products {
-            for (a, [re, im]) in one.iter().zip(vectors) {
-                let [a_re, a_im] = [a.re, a.im].map(f64::from);
-                for lane in 0..LANES {
-                    last[0][lane] += a_re * re[lane] - a_im * im[lane];
-                    last[1][lane] += a_re * im[lane] + a_im * re[lane];
-                }
+        }
+        for (product, sums) in products.iter_mut().zip(&sums) {
+            for lane in 0..LANES {
+                product[0][lane] += sums[0][lane] - sums[1][lane];
+                product[1][lane] += sums[2][lane] + sums[3][lane];
             }
         }
     }

@@ -114,6 +114,16 @@ const WITH: OptionSpec = OptionSpec::ours(
     "other bodies that are solved together with it",
 )
 .repeating(1);
+const MEAN_DRIFT: OptionSpec = OptionSpec::ours(
+    "-MEAN_DRIFT",
+    &[],
+    "finds the mean drift of each of several bodies too, by a control surface around it, which takes longer than all else",
+);
+const CHECK: OptionSpec = OptionSpec::ours(
+    "-CHECK",
+    &[],
+    "shows what the panels and the results are worth, and the change of every result with twice as many panels",
+);
 const MD_TYPE: OptionSpec = OptionSpec::new(
     "-MD_TYPE",
     &[ValueSpec::new("TYPE", Kind::Text, "FORMULAE or SEMI")],
@@ -137,7 +147,7 @@ const MAX_DIST: OptionSpec = OptionSpec::new(
 static PRESSURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MAX_DIST],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MEAN_DRIFT, CHECK, MAX_DIST],
     detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
              are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
              Mirror planes of a single hull are found and used. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
@@ -146,7 +156,8 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
              FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. A body alone has its mean drift, by the waves far away and with the motions \
              that its mass, stiffness, moorings and damping give it now: G_MDRIFT finds it anew after these have changed. Roll has the damping of radiated waves \
              alone: #DAMP adds what eddies take. The report has the panels of a wave length and the difference of exciting forces by pressure and by Haskind's \
-             relation, which measures the mesh. Headings and periods are kept as those of RAO. A body with a database of DATABASE or I_TOTAL keeps it: \
+             relation, which measures the mesh. What was computed is written beside the answers, BODY.nc in the layout of Capytaine, and is taken from there by a run with the same mesh, \
+             water, headings, periods and motions; DATABASE -CAPYTAINE reads it. Headings and periods are kept as those of RAO. A body with a database of DATABASE or I_TOTAL keeps it: \
              that is said. For a body without a hull motions stop with one error until it is given a database.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BARGE\n*CG 0 0 0\n#WEIGHT *CG 100552 12 26 26\n&SURFACE\n\
               BLOCK HULL -45 -15 -3.7 45 15 4\nEND_&SURFACE\nEND\nHYDRODYNAMICS\nG_PRESSURE BARGE -HEADING 180 90 -PERIOD 7 9 12 -PANEL 6\nEND\n\
@@ -337,6 +348,8 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             periods: job.model.wave_defaults.periods.clone(),
             size: length(&PANEL),
             depth: length(&WATER_DEPTH),
+            has_drift: names.len() == 1 || args.has(&MEAN_DRIFT),
+            is_checked: args.has(&CHECK),
             span,
         };
         panel_forces::compute(job, &names, &request)?;
@@ -395,6 +408,8 @@ fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
         periods: given(&PERIOD).unwrap_or_else(|| data.frequencies.iter().map(|w| TAU / w).collect()),
         size: length(&PANEL).or(Some(size)),
         depth: length(&WATER_DEPTH).or(data.depth),
+        has_drift: true,
+        is_checked: false,
         span,
     };
     panel_drift::compute(job, &name, &data, &request)?;

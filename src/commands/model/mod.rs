@@ -17,6 +17,7 @@ pub(crate) mod junction;
 pub(crate) mod loads;
 pub(crate) mod member;
 pub(crate) mod names;
+mod panel_check;
 mod panel_drift;
 mod panel_forces;
 pub(crate) mod pgen;

@@ -1,10 +1,12 @@
-//! `G_MDRIFT`: mean drift of a body by its panels, with the motions that its mass, stiffness, moorings and damping give it where it stands.
+//! Mean drift of bodies by their panels, with the motions that their mass, stiffness, moorings and damping give them where they stand; `G_MDRIFT`
+//! makes it anew.
 //!
-//! The drift of a database is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
+//! Of several bodies each has a control surface of its own. The drift of a body alone is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
 //! how far both agree.
 
 use crate::commands::Job;
-use crate::commands::model::panel_forces::{MeshedBodies, PanelRequest, progress_bar};
+use crate::commands::model::panel_forces::{MeshedBodies, MeshedBody, PanelRequest, progress_bar};
+use crate::report::pressure_file::BodyDrift;
 use nalgebra::{Complex, DMatrix, Matrix6, Rotation3, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -12,7 +14,8 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
-    ControlSurfaceDrift, DiffractionError, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution,
+    ControlSurface, ControlSurfaceDrift, DiffractionError, DiffractionProblem, FarFieldDrift, FrequencyForces, MOTIONS,
+    WaveSolution,
 };
 use windlass_hydro::database::DriftTable;
 use windlass_hydro::sea::dispersion::wave_number;
@@ -42,32 +45,131 @@ pub enum DriftSource {
 
 impl DriftSource {
     /// What a report says of it.
-    pub fn said(&self) -> &'static str {
+    pub fn said(&self, meshed: &MeshedBodies) -> String {
+        let (way, who) = match meshed.bodies.len() {
+            1 => ("by the waves far away", "the body"),
+            _ => ("by a control surface around each body", "the bodies"),
+        };
         match self {
-            DriftSource::Motions(_) => "by the waves far away, of the body in motion",
-            DriftSource::Fixed => "by the waves far away, of the body held",
-            DriftSource::None(_) => "none",
+            DriftSource::Motions(_) => format!("{way}, of {who} in motion"),
+            DriftSource::Fixed => format!("{way}, of {who} held"),
+            DriftSource::None(_) => "none".into(),
         }
     }
 }
 
-/// The motions of bodies that are meshed.
-pub fn source(model: &Model, meshed: &MeshedBodies) -> DriftSource {
-    let [body] = meshed.bodies.as_slice() else {
-        return DriftSource::None(
-            "of several bodies the waves far away give the sum alone; #DRIFT gives it by records".into(),
-        );
-    };
-    if model.bodies.get(&body.key).is_some_and(|body| body.ignored.len() >= MOTIONS) {
+/// The motions of bodies that are meshed; none where drift is not asked for.
+pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSource {
+    if !is_asked {
+        return DriftSource::None("-MEAN_DRIFT finds it by a control surface around each body".into());
+    }
+    let is_held = |body: &MeshedBody| model.bodies.get(&body.key).is_some_and(|body| body.ignored.len() >= MOTIONS);
+    if meshed.bodies.iter().all(is_held) {
         return DriftSource::Fixed;
     }
     let mut alone = model.clone();
-    if let Some(body) = alone.bodies.get_mut(&body.key) {
-        body.database = None;
+    for meshed in &meshed.bodies {
+        if let Some(body) = alone.bodies.get_mut(&meshed.key) {
+            body.database = None;
+        }
     }
     match LinearSystem::new(&alone) {
         Ok(linear) => DriftSource::Motions(Box::new(linear)),
         Err(error) => DriftSource::None(said(error)),
+    }
+}
+
+/// What of a source the drift depends on: all of stiffness, mass, damping and other loads of waves at the frequencies.
+pub fn numbers(source: &DriftSource, meshed: &MeshedBodies, headings: &[f64]) -> Vec<f64> {
+    let linear = match source {
+        DriftSource::Motions(linear) => linear,
+        DriftSource::Fixed => return vec![1.0],
+        DriftSource::None(_) => return vec![2.0],
+    };
+    let mut list = vec![3.0, meshed.heading, meshed.place[0], meshed.place[1]];
+    list.extend(linear.stiffness.iter());
+    for frequency in &meshed.frequencies {
+        let (mass, damping) = linear.inertia_and_damping(*frequency);
+        list.extend(mass.iter().chain(damping.iter()));
+        for heading in headings {
+            let loads = linear.excitation(*frequency, heading + meshed.heading).unwrap_or_default();
+            list.extend(loads.iter().flat_map(|load| [load.re, load.im]));
+        }
+    }
+    list
+}
+
+/// A control surface around each of several bodies; none around a body alone, whose waves far away tell its drift.
+///
+/// # Errors
+/// Bodies too near each other, in words.
+pub fn surfaces(meshed: &MeshedBodies, problem: &DiffractionProblem) -> Result<Vec<ControlSurface>, String> {
+    if meshed.bodies.len() == 1 {
+        return Ok(Vec::new());
+    }
+    let around = |(i, body): (usize, &MeshedBody)| {
+        let made = problem.control_box(i, body.turn).map(ControlSurface::Box);
+        made.ok_or_else(|| format!("no upright box fits around {} that leaves the others outside", body.name))
+    };
+    meshed.bodies.iter().enumerate().map(around).collect()
+}
+
+/// The drift of a frequency; none where there is no source.
+///
+/// # Errors
+/// Motions that have no bound; a control surface that crosses a hull.
+pub fn of_frequency(
+    source: &DriftSource,
+    meshed: &MeshedBodies,
+    surfaces: &[ControlSurface],
+    waves: &WaveSolution,
+    headings: &[f64],
+) -> Result<Option<BodyDrift>, String> {
+    let count = MOTIONS * meshed.bodies.len();
+    let motions = match source {
+        DriftSource::Motions(linear) => motions(linear, meshed, &waves.forces, headings)?,
+        DriftSource::Fixed => vec![vec![C::default(); count]; headings.len()],
+        DriftSource::None(_) => return Ok(None),
+    };
+    let far: Vec<FarFieldDrift> =
+        motions.iter().enumerate().map(|(heading, motions)| at_heading(waves, heading, motions)).collect();
+    if meshed.bodies.len() == 1 {
+        return Ok(Some(of_body_alone(&far)));
+    }
+    let mut values = vec![Vec::new(); headings.len()];
+    let mut sums: Vec<[[f64; 2]; 2]> = far.iter().map(|far| [[0.0; 2], [far.surge, far.sway]]).collect();
+    for (body, surface) in meshed.bodies.iter().zip(surfaces) {
+        let found = waves.control_surface_drift(&motions, surface);
+        let found = found.ok_or_else(|| format!("the control surface around {} crosses a hull", body.name))?;
+        let [x, y] = surface.centre();
+        for ((own, sum), drift) in values.iter_mut().zip(&mut sums).zip(found) {
+            let ControlSurfaceDrift { surge, sway, yaw } = drift;
+            // from the middle of the surface to the origin of the body
+            own.push([surge, sway, yaw + (x - body.origin.x) * sway - (y - body.origin.y) * surge]);
+            sum[0][0] += surge;
+            sum[0][1] += sway;
+        }
+    }
+    Ok(Some(BodyDrift { values, sums }))
+}
+
+/// The drift of a body alone, heading by heading.
+fn of_body_alone(far: &[FarFieldDrift]) -> BodyDrift {
+    BodyDrift { values: far.iter().map(|d| vec![[d.surge, d.sway, d.yaw]]).collect(), sums: Vec::new() }
+}
+
+/// Takes away what rounding leaves of the drift of symmetric hulls.
+pub fn remove_noise(drifts: &mut [BodyDrift]) {
+    let all = || drifts.iter().flat_map(|own| own.values.iter().flatten());
+    let force = all().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
+    // the moment of a symmetric hull is rounding of its forces over the lengths of waves
+    let moment = all().map(|[.., turn]| turn.abs()).fold(force, f64::max);
+    for own in drifts.iter_mut().flat_map(|own| own.values.iter_mut().flatten()) {
+        for (value, largest) in own.iter_mut().zip([force, force, moment]) {
+            if value.abs() < NOISE_SHARE * largest {
+                *value = 0.0;
+            }
+        }
     }
 }
 
@@ -88,19 +190,17 @@ fn motions(
 ) -> Result<Vec<Vec<C>>, String> {
     let frequency = forces.frequency;
     let number = |key: &String| linear.system.nodes.iter().position(|node| node.key == *key);
-    let nodes: Vec<usize> = meshed
-        .bodies
-        .iter()
-        .map(|body| number(&body.key).ok_or_else(|| format!("{} does not move", body.name)))
-        .collect::<Result<_, _>>()?;
+    // a body that is held is none
+    let nodes: Vec<Option<usize>> = meshed.bodies.iter().map(|body| number(&body.key)).collect();
+    let moving = || nodes.iter().enumerate().filter_map(|(i, node)| Some((i, (*node)?)));
     let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), meshed.heading);
     let mut to_global = Matrix6::zeros();
     for at in [0, 3] {
         to_global.fixed_view_mut::<3, 3>(at, at).copy_from(turned.matrix());
     }
     let (mut mass, mut damping) = linear.inertia_and_damping(frequency);
-    for (i, row) in nodes.iter().enumerate() {
-        for (j, column) in nodes.iter().enumerate() {
+    for (i, row) in moving() {
+        for (j, column) in moving() {
             let own = |all: &DMatrix<f64>| -> Matrix6<f64> {
                 let block = Matrix6::from_fn(|a, b| all[(MOTIONS * i + a, MOTIONS * j + b)]);
                 to_global * block * to_global.transpose()
@@ -117,7 +217,7 @@ fn motions(
     for (heading, own) in headings.iter().zip(&forces.excitation) {
         let toward = heading + meshed.heading;
         let mut all = linear.excitation(frequency, toward).map_err(said)?;
-        for (i, row) in nodes.iter().enumerate() {
+        for (i, row) in moving() {
             for a in 0..MOTIONS {
                 let turned: C = (0..MOTIONS).map(|b| own[MOTIONS * i + b] * to_global[(a, b)]).sum();
                 all[MOTIONS * row + a] += turned * phase(toward);
@@ -128,10 +228,12 @@ fn motions(
     let made = linear.motions_with(frequency, (mass, damping), &loads).map_err(said)?;
     let in_group = |(heading, all): (&f64, &Motions)| {
         let back = phase(heading + meshed.heading).conj();
-        let of_node = |row: &usize| {
-            let row = *row;
-            (0..MOTIONS)
-                .map(move |a| (0..MOTIONS).map(|b| all[MOTIONS * row + b] * to_global[(b, a)]).sum::<C>() * back)
+        let of_node = |node: &Option<usize>| {
+            let node = *node;
+            let motion = move |row: usize, a: usize| {
+                (0..MOTIONS).map(|b| all[MOTIONS * row + b] * to_global[(b, a)]).sum::<C>() * back
+            };
+            (0..MOTIONS).map(move |a| node.map_or_else(C::default, |row| motion(row, a)))
         };
         nodes.iter().flat_map(of_node).collect()
     };
@@ -145,7 +247,7 @@ const LIGHT_ROLL_DAMPING: f64 = 0.05;
 
 /// The warning of a body alone whose roll at its natural period has the damping of radiated waves alone; none where that period is not among the
 /// frequencies.
-pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, made: &[FrequencyForces]) -> Option<String> {
+pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, data: &Database) -> Option<String> {
     const ROLL: usize = 3;
     let [body] = meshed.bodies.as_slice() else { return None };
     let node = linear.system.nodes.iter().position(|node| node.key == body.key)?;
@@ -163,14 +265,18 @@ pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, made: &[Freque
     let (mass, damping) = linear.inertia_and_damping(meshed.frequencies.first().copied()?);
     let (own, given) = (about(&mass), about(&damping));
     // mass and added mass as far as they go with the stiffness
-    let excess =
-        |forces: &FrequencyForces| forces.frequency.powi(2) * (own + forces.added_mass[(ROLL, ROLL)]) - stiffness;
-    let pair = made.windows(2).find(|pair| excess(&pair[0]) <= 0.0 && excess(&pair[1]) > 0.0)?;
+    let rows: Vec<[f64; 3]> = data
+        .frequencies
+        .iter()
+        .zip(data.added_mass.iter().zip(&data.damping))
+        .map(|(w, (added, damping))| [*w, w * w * (own + added[(ROLL, ROLL)]) - stiffness, damping[(ROLL, ROLL)]])
+        .collect();
+    let pair = rows.windows(2).find(|pair| matches!(pair, [low, high] if low[1] <= 0.0 && high[1] > 0.0))?;
     let [low, high] = pair else { return None };
-    let share = -excess(low) / (excess(high) - excess(low));
+    let share = -low[1] / (high[1] - low[1]);
     let between = |a: f64, b: f64| a + (b - a) * share;
-    let frequency = between(low.frequency, high.frequency);
-    let radiated = between(low.damping[(ROLL, ROLL)], high.damping[(ROLL, ROLL)]);
+    let frequency = between(low[0], high[0]);
+    let radiated = between(low[2], high[2]);
     let critical = 2.0 * stiffness / frequency;
     let shares = [given / critical, (given + radiated) / critical];
     (shares[0] < NO_ROLL_DAMPING && shares[1] < LIGHT_ROLL_DAMPING).then(|| {
@@ -190,43 +296,22 @@ fn at_heading(waves: &WaveSolution, heading: usize, motions: &[C]) -> FarFieldDr
     waves.far_field_drift(heading, motions).unwrap_or(none)
 }
 
-/// The drift of a frequency by the waves far away, heading by heading.
-///
-/// # Errors
-/// Motions that have no bound.
-pub fn far_field(
-    linear: &LinearSystem,
-    meshed: &MeshedBodies,
-    waves: &WaveSolution,
-    headings: &[f64],
-) -> Result<Vec<FarFieldDrift>, String> {
-    let motions = motions(linear, meshed, &waves.forces, headings)?;
-    Ok(motions.iter().enumerate().map(|(heading, motions)| at_heading(waves, heading, motions)).collect())
-}
-
-/// The same of a body that is held.
-pub fn far_field_fixed(waves: &WaveSolution, headings: &[f64]) -> Vec<FarFieldDrift> {
-    (0..headings.len()).map(|heading| at_heading(waves, heading, &[C::default(); MOTIONS])).collect()
-}
-
-/// Drift by heading of a database, then frequency, from that by frequency, then heading (rad) of the group.
-pub fn by_heading(headings: &[f64], turn: f64, wanted: &[f64], drifts: &[Vec<FarFieldDrift>]) -> Vec<Vec<[f64; 6]>> {
+/// Drift by heading of a database, then frequency, from that by frequency, then heading (rad).
+fn by_heading(headings: &[f64], wanted: &[f64], drifts: &[BodyDrift]) -> Vec<Vec<[f64; 6]>> {
     let off = |a: f64, b: f64| {
         let turn = (a - b).rem_euclid(TAU);
         turn.min(TAU - turn)
     };
-    let largest = |of: &dyn Fn(&FarFieldDrift) -> f64| drifts.iter().flatten().map(of).fold(0.0, f64::max);
-    let (force, moment) = (largest(&|d| d.surge.hypot(d.sway)), largest(&|d| d.yaw.abs()));
-    // the moment of a symmetric hull is rounding of its forces over the lengths of waves
-    let moment = moment.max(force);
-    let clean = |value: f64, largest: f64| if value.abs() < NOISE_SHARE * largest { 0.0 } else { value };
-    let six = |d: &FarFieldDrift| [clean(d.surge, force), clean(d.sway, force), 0.0, 0.0, 0.0, clean(d.yaw, moment)];
     wanted
         .iter()
         .map(|heading| {
-            let nearest = (0..headings.len())
-                .min_by(|a, b| off(headings[*a] - turn, *heading).total_cmp(&off(headings[*b] - turn, *heading)));
-            drifts.iter().map(|row| nearest.and_then(|at| row.get(at)).map_or([0.0; 6], six)).collect()
+            let nearest =
+                (0..headings.len()).min_by(|a, b| off(headings[*a], *heading).total_cmp(&off(headings[*b], *heading)));
+            let of = |row: &BodyDrift| {
+                let [x, y, turn] = nearest.and_then(|at| row.values.get(at)?.first().copied()).unwrap_or_default();
+                [x, y, 0.0, 0.0, 0.0, turn]
+            };
+            drifts.iter().map(of).collect()
         })
         .collect()
 }
@@ -249,13 +334,14 @@ struct DriftRow {
 pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelRequest) -> Outcome<()> {
     let span = request.span;
     let wrong = |text: String| Diagnostic::error(format!("{name}: {text}"), span);
-    let (meshed, problem) = MeshedBodies::new(&job.model, &[name.to_owned()], request)?;
+    let meshed = MeshedBodies::new(&job.model, &[name.to_owned()], request)?;
+    let problem = meshed.problem(span)?;
     let refused = |error: DiffractionError| wrong(error.to_string());
-    let source = source(&job.model, &meshed);
+    let source = source(&job.model, &meshed, true);
     if let DriftSource::None(why) = &source {
         return Err(wrong(why.clone()));
     }
-    let cylinder = problem.control_cylinder();
+    let surface = ControlSurface::Cylinder(problem.control_cylinder());
     let bar = progress_bar(meshed.frequencies.len());
     let (mut drifts, mut rows) = (Vec::new(), Vec::new());
     for frequency in &meshed.frequencies {
@@ -272,20 +358,21 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
         };
         let far: Vec<FarFieldDrift> =
             motions.iter().enumerate().map(|(heading, motions)| at_heading(&waves, heading, motions)).collect();
-        let near = waves.control_surface_drift(&motions, &cylinder);
+        let near = waves.control_surface_drift(&motions, &surface);
         let near = near.ok_or_else(|| wrong("no control surface fits around it".into()))?;
         rows.extend(drift_row(*frequency, &request.headings, &far, &near));
-        drifts.push(far);
+        drifts.push(of_body_alone(&far));
         bar.inc(1);
     }
     bar.finish_and_clear();
+    remove_noise(&mut drifts);
     let mut headings = request.headings.clone();
     headings.iter_mut().for_each(|heading| *heading = heading.rem_euclid(TAU));
     headings.sort_by(f64::total_cmp);
     headings.dedup_by(|a, b| (*a - *b).abs() < 1e-9);
     let drift = DriftTable {
         frequencies: meshed.frequencies.clone(),
-        values: by_heading(&request.headings, 0.0, &headings, &drifts),
+        values: by_heading(&request.headings, &headings, &drifts),
         headings,
     };
     let largest = rows.iter().map(|row: &DriftRow| row.far[0].hypot(row.far[1])).fold(0.0, f64::max);

@@ -1,12 +1,16 @@
 //! `G_PRESSURE`: added mass, damping and wave forces of bodies by panels, where they stand. Several bodies are solved together: each has a
-//! database with the radiation of the others.
+//! database with the radiation of the others. What was computed is kept beside the answers (`report/pressure_file.rs`) and taken from there by a run with
+//! the same mesh and settings.
 
 use crate::commands::model::database;
 use crate::commands::model::hydrodynamics::settle_pressure;
+use crate::commands::model::panel_check;
 use crate::commands::model::panel_drift::{self, DriftSource};
 use crate::commands::{Job, count};
+use crate::report::pressure_file::{FileBody, KEY, NO_DRIFT, PressureFile};
 use indicatif::{ProgressBar, ProgressStyle};
-use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, Rotation3, Vector3};
+use nalgebra::{Rotation3, Vector3};
+use sha2::{Digest, Sha256};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
@@ -14,13 +18,13 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
-    DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh, MOTIONS,
-    MirrorPlanes, Water,
+    DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh, MirrorPlanes,
+    Water,
 };
-use windlass_hydro::database::typed::{self, TypedAxes, TypedPeriod};
-use windlass_hydro::database::{Amplitudes, DriftTable};
+use windlass_hydro::database::{DatabaseError, capytaine};
 use windlass_hydro::wetted_hull::WettedHull;
-use windlass_model::{AttachedDatabase, Body, Database, DriftMethod, Interaction, Model, WaveAction};
+use windlass_language::source::LARGEST_FILE;
+use windlass_model::{AttachedDatabase, Body, Database, DriftMethod, Model, WaveAction};
 
 /// Panels of the whole hull where no size is given.
 const USUAL_PANELS: f64 = 1000.0;
@@ -42,7 +46,8 @@ const POOR_EXCITATION: f64 = 0.05;
 /// How the source of a database begins that was made here.
 pub const SOURCE: &str = "G_PRESSURE";
 
-type C = Complex<f64>;
+/// Bodies that stand or are turned by less than this (m, rad) from each other's planes of symmetry share them.
+const SAME_PLACE: f64 = 1e-9;
 
 /// What is asked for.
 pub struct PanelRequest {
@@ -54,6 +59,10 @@ pub struct PanelRequest {
     pub size: Option<f64>,
     /// Depth (m) instead of that of the environment.
     pub depth: Option<f64>,
+    /// Whether mean drift is found.
+    pub has_drift: bool,
+    /// Whether a check of the results follows.
+    pub is_checked: bool,
     /// Where the record stands.
     pub span: Span,
 }
@@ -69,7 +78,7 @@ pub struct MeshedBody {
     /// Where its origin is (m).
     pub origin: Vector3<f64>,
     /// Its heading from that of the group (rad).
-    turn: f64,
+    pub turn: f64,
     has_lid: bool,
     /// Panels of its mesh, of the part that is solved.
     panels: usize,
@@ -93,6 +102,7 @@ pub struct MeshedBodies {
     /// The water.
     pub water: Water,
     mirrors: MirrorPlanes,
+    parts: Vec<DiffractionBody>,
 }
 
 impl MeshedBodies {
@@ -105,11 +115,11 @@ impl MeshedBodies {
         }
     }
 
-    /// Meshes bodies where they stand, and makes the problem of them.
+    /// Meshes bodies where they stand.
     ///
     /// # Errors
-    /// A hull that cannot be meshed; bodies that overlap; periods too short for the panels; more panels than memory; a bottom above a keel.
-    pub fn new(model: &Model, names: &[String], request: &PanelRequest) -> Outcome<(Self, DiffractionProblem)> {
+    /// A hull that cannot be meshed; periods too short for the panels; more panels than memory.
+    pub fn new(model: &Model, names: &[String], request: &PanelRequest) -> Outcome<Self> {
         let around = model.surroundings();
         let depth = request.depth.or(around.depth);
         let water = Water { density: around.water_density, gravity: around.gravity, depth };
@@ -124,10 +134,20 @@ impl MeshedBodies {
         let Some((_, first, _)) = hulls.first() else { return Err(wrong("there is no body to mesh".into())) };
         let (heading, place) = (first.position.turn[2], [first.position.shift[0], first.position.shift[1]]);
         let alone = hulls.len() == 1;
-        let mirrors = match hulls.as_slice() {
-            [(_, _, hull)] => MirrorPlanes { x: hull.mirrors[0], y: hull.mirrors[1] },
-            _ => MirrorPlanes::default(),
+        // of several bodies a plane is one if it is one of each of them: those stand along it and are not turned
+        let (sine, cosine) = heading.sin_cos();
+        let shift_of = |body: &Body| {
+            let (dx, dy) = (body.position.shift[0] - place[0], body.position.shift[1] - place[1]);
+            let shift = [dx * cosine + dy * sine, dy * cosine - dx * sine];
+            shift.map(|x| if x.abs() < SAME_PLACE { 0.0 } else { x })
         };
+        let is_plane = |axis: usize| {
+            hulls.iter().all(|(_, body, hull)| {
+                hull.mirrors[axis]
+                    && (alone || shift_of(body)[axis] == 0.0 && (body.position.turn[2] - heading).abs() < SAME_PLACE)
+            })
+        };
+        let mirrors = MirrorPlanes { x: is_plane(0), y: is_plane(1) };
         let images = mirrors.images().len() as f64;
         let area: f64 = hulls.iter().map(|(_, _, hull)| hull.area).sum();
         let size = request.size.unwrap_or_else(|| (area / (USUAL_PANELS * hulls.len() as f64)).sqrt());
@@ -148,13 +168,8 @@ impl MeshedBodies {
         for (key, body, hull) in hulls {
             let refused = |error: DiffractionError| wrong(format!("{}: {error}", body.name));
             let turn = body.position.turn[2] - heading;
-            let (dx, dy) = (body.position.shift[0] - place[0], body.position.shift[1] - place[1]);
-            let (sine, cosine) = heading.sin_cos();
-            let shift = if alone {
-                Vector3::zeros()
-            } else {
-                Vector3::new(dx * cosine + dy * sine, dy * cosine - dx * sine, 0.0)
-            };
+            let [x, y] = if alone { [0.0; 2] } else { shift_of(body) };
+            let shift = Vector3::new(x, y, 0.0);
             let axes = Rotation3::from_axis_angle(&Vector3::z_axis(), turn);
             let mut quads = hull.panels(size, [mirrors.x, mirrors.y]);
             if !alone {
@@ -172,92 +187,89 @@ impl MeshedBodies {
             parts.push(DiffractionBody { mesh, origin });
         }
         let frequencies = choose_frequencies(names, request, size, water)?;
-        let problem = DiffractionProblem::new(&parts, water);
-        let problem = problem.map_err(|error| {
-            let named: Vec<String> =
-                bodies.iter().enumerate().map(|(i, b)| format!("{} is {}", i + 1, b.name)).collect();
-            let said = wrong(format!("{}: {error}", names.join(", ")));
-            if alone { said } else { said.help(format!("of the bodies {}", named.join(", "))) }
-        })?;
-        Ok((MeshedBodies { bodies, heading, place, size, frequencies, water, mirrors }, problem))
+        Ok(MeshedBodies { bodies, heading, place, size, frequencies, water, mirrors, parts })
     }
 
-    /// The databases of the bodies, each in its axes and about its origin.
-    fn databases(
-        &self,
-        made: &[FrequencyForces],
-        infinite: &DMatrix<f64>,
-        request: &PanelRequest,
-        model: &Model,
-    ) -> Result<Vec<Database>, String> {
-        let around = model.surroundings();
-        let source = if self.bodies.len() == 1 { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
-        let turns: Vec<Matrix6<f64>> = self.bodies.iter().map(MeshedBody::axes).collect();
-        let block = |matrix: &DMatrix<f64>, i: usize, j: usize| -> Matrix6<f64> {
-            let own = Matrix6::from_fn(|row, column| matrix[(MOTIONS * i + row, MOTIONS * j + column)]);
-            turns[i] * own * turns[j].transpose()
-        };
-        let mut list = Vec::new();
-        for (i, body) in self.bodies.iter().enumerate() {
-            let periods: Vec<TypedPeriod> = made
-                .iter()
-                .map(|forces| {
-                    let k = TAU / wave_length(forces.frequency, self.water);
-                    let of_heading = |(heading, force): (&f64, &Vec<C>)| {
-                        // the phase goes with the wave at the origin of the body
-                        let along = body.origin.x * heading.cos() + body.origin.y * heading.sin();
-                        let phase = C::from_polar(1.0, -k * along);
-                        let at = |row: usize| force.get(MOTIONS * i + row).copied().unwrap_or_default() * phase;
-                        let all: Amplitudes = std::array::from_fn(|row| {
-                            (0..MOTIONS).map(|column| at(column) * turns[i][(row, column)]).sum()
-                        });
-                        (heading - body.turn, all)
-                    };
-                    TypedPeriod {
-                        period: TAU / forces.frequency,
-                        added_mass: Some(block(&forces.added_mass, i, i)),
-                        damping: Some(block(&forces.damping, i, i)),
-                        forces: request.headings.iter().zip(&forces.excitation).map(of_heading).collect(),
-                    }
-                })
-                .collect();
-            let axes = TypedAxes { reference: Vector3::zeros(), axes: Matrix3::identity(), yaw: 0.0 };
-            let mut data = typed::build(&source, &axes, &periods, &around).map_err(|error| error.to_string())?;
-            data.infinite = Some(block(infinite, i, i));
-            data.depth = self.water.depth;
-            data.mass = Some(body.hull.volume * around.water_density);
-            data.index = i;
-            data.panel_size = Some(self.size);
-            for (j, other) in self.bodies.iter().enumerate().filter(|(j, _)| *j != i) {
-                let between = other.origin - body.origin;
-                let (sine, cosine) = body.turn.sin_cos();
-                data.interactions.push(Interaction {
-                    index: j,
-                    added_mass: made.iter().map(|forces| block(&forces.added_mass, i, j)).collect(),
-                    damping: made.iter().map(|forces| block(&forces.damping, i, j)).collect(),
-                    infinite: Some(block(infinite, i, j)),
-                    place: Some([
-                        between.x * cosine + between.y * sine,
-                        between.y * cosine - between.x * sine,
-                        other.turn - body.turn,
-                    ]),
-                });
+    /// The problem of the bodies.
+    ///
+    /// # Errors
+    /// Bodies that overlap; a bottom above a keel; an open mesh.
+    pub fn problem(&self, span: Span) -> Outcome<DiffractionProblem> {
+        DiffractionProblem::new(&self.parts, self.water).map_err(|error| {
+            let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+            let said = Diagnostic::error(format!("{}: {error}", names.join(", ")), span);
+            let named: Vec<String> = names.iter().enumerate().map(|(i, name)| format!("{} is {name}", i + 1)).collect();
+            if names.len() == 1 { said } else { said.help(format!("of the bodies {}", named.join(", "))) }
+        })
+    }
+
+    /// The bodies with their meshes.
+    pub fn meshes(&self) -> impl Iterator<Item = (&MeshedBody, &HullMesh)> {
+        self.bodies.iter().zip(self.parts.iter().map(|part| &part.mesh))
+    }
+
+    /// The panels of all hulls, with those of the images.
+    pub fn panel_count(&self) -> usize {
+        self.bodies.iter().map(|body| body.panels).sum::<usize>() * self.mirrors.images().len()
+    }
+
+    /// The length of the shortest wave (m).
+    pub fn shortest_wave(&self) -> f64 {
+        self.frequencies.last().map_or(f64::INFINITY, |w| wave_length(*w, self.water))
+    }
+
+    /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
+    fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
+        let mut hasher = Sha256::new();
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 1));
+        let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
+        let Water { density, gravity, depth } = self.water;
+        add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size].into_iter());
+        add(&mut self.frequencies.iter().chain(headings).copied());
+        add(&mut [
+            self.frequencies.len() as f64,
+            f64::from(u8::from(self.mirrors.x)),
+            f64::from(u8::from(self.mirrors.y)),
+        ]
+        .into_iter());
+        for (body, part) in self.bodies.iter().zip(&self.parts) {
+            add(&mut [body.turn, body.hull.volume].into_iter().chain(part.origin.iter().copied()));
+            add(&mut body.hull.axes.iter().copied());
+            for panels in [part.mesh.hull(), part.mesh.lid()] {
+                add(&mut [panels.len() as f64].into_iter());
+                add(&mut panels.iter().flat_map(|panel| panel.corners()).flat_map(|corner| corner.iter().copied()));
             }
-            list.push(data);
         }
-        Ok(list)
+        for number in panel_drift::numbers(drift, self, headings) {
+            hasher.update(number.to_le_bytes());
+        }
+        for body in &self.bodies {
+            hasher.update(&body.name);
+        }
+        hasher.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
     }
-}
 
-impl MeshedBody {
-    /// From axes of the group to those of the body, of motions and forces.
-    fn axes(&self) -> Matrix6<f64> {
-        let turned = self.hull.axes * Rotation3::from_axis_angle(&Vector3::z_axis(), -self.turn).matrix();
-        let mut made = Matrix6::zeros();
-        for at in [0, 3] {
-            made.fixed_view_mut::<3, 3>(at, at).copy_from(&turned);
-        }
-        made
+    /// The bodies as a file has them.
+    fn file_bodies(&self) -> Vec<FileBody> {
+        let of = |body: &MeshedBody| FileBody {
+            name: body.name.clone(),
+            origin: body.origin,
+            axes: body.hull.axes * Rotation3::from_axis_angle(&Vector3::z_axis(), -body.turn).matrix(),
+            heading: body.turn,
+            mass: body.hull.volume * self.water.density,
+        };
+        self.bodies.iter().map(of).collect()
+    }
+
+    /// The databases of the bodies by the bytes of a file.
+    pub fn databases(&self, bytes: &[u8]) -> Result<Vec<Database>, String> {
+        let alone = self.bodies.len() == 1;
+        let source = if alone { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
+        let of = |i: usize| {
+            let data = capytaine::read(&source, bytes, (!alone).then_some(i + 1)).map_err(|error| error.to_string())?;
+            Ok(Database { panel_size: Some(self.size), ..data })
+        };
+        (0..self.bodies.len()).map(of).collect()
     }
 }
 
@@ -292,50 +304,37 @@ fn choose_frequencies(names: &[String], request: &PanelRequest, size: f64, water
     Ok(frequencies)
 }
 
-/// Computes the databases of bodies together and attaches them; the report of it is shown.
+/// Computes the databases of bodies together, or takes them from the file of an earlier run of the same mesh and settings, and attaches them; the
+/// report of it is shown.
 ///
 /// # Errors
-/// As of [`MeshedBodies::new`]; an interrupt: the bodies keep what they have.
+/// As of [`MeshedBodies::new`] and [`MeshedBodies::problem`]; an interrupt: the bodies keep what they have.
 pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outcome<()> {
     let span = request.span;
-    let (meshed, problem) = MeshedBodies::new(&job.model, names, request)?;
+    let meshed = MeshedBodies::new(&job.model, names, request)?;
     let all = meshed.names();
-    let refused = |error: DiffractionError| Diagnostic::error(format!("{all}: {error}"), span);
-    let mut drift = panel_drift::source(&job.model, &meshed);
-    let mut made: Vec<FrequencyForces> = Vec::new();
-    let mut drifts = Vec::new();
-    let bar = progress_bar(meshed.frequencies.len());
-    for frequency in &meshed.frequencies {
-        if job.is_interrupted() {
-            bar.finish_and_clear();
-            return Err(Diagnostic::error(format!("interrupted: {all} keeps the database it had, if any"), span));
-        }
-        let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
-        if let DriftSource::Motions(linear) = &drift {
-            match panel_drift::far_field(linear, &meshed, &waves, &request.headings) {
-                Ok(row) => drifts.push(row),
-                Err(why) => drift = DriftSource::None(why),
-            }
-        } else if matches!(drift, DriftSource::Fixed) {
-            drifts.push(panel_drift::far_field_fixed(&waves, &request.headings));
-        }
-        made.push(waves.forces);
-        bar.inc(1);
+    let wrong = |text: String| Diagnostic::error(format!("{all}: {text}"), span);
+    let mut drift = panel_drift::source(&job.model, &meshed, request.has_drift);
+    let key = meshed.key(&request.headings, &drift);
+    let file = format!("{}.nc", names.join("_"));
+    let kept = kept_file(job, &file, &key);
+    if let Some(why) = kept.as_ref().and_then(|bytes| capytaine::attribute(bytes, NO_DRIFT)) {
+        drift = DriftSource::None(why);
     }
-    bar.finish_and_clear();
-    let infinite = problem.added_mass_limit(FrequencyLimit::Infinite).map_err(refused)?;
-    let databases = meshed.databases(&made, &infinite, request, &job.model);
-    let mut databases = databases.map_err(|error| Diagnostic::error(format!("{all}: {error}"), span))?;
-    if let ([data], [body], false) =
-        (databases.as_mut_slice(), meshed.bodies.as_slice(), matches!(drift, DriftSource::None(_)))
-    {
-        data.drift = Some(DriftTable {
-            frequencies: meshed.frequencies.clone(),
-            headings: data.headings.clone(),
-            values: panel_drift::by_heading(&request.headings, body.turn, &data.headings, &drifts),
-        });
+    let is_kept = kept.is_some();
+    let bytes = match kept {
+        Some(bytes) => bytes,
+        None => solve(job, &meshed, &mut drift, request, &key)?,
+    };
+    let databases = meshed.databases(&bytes).map_err(wrong)?;
+    let quality = Quality::read(&bytes, &meshed).map_err(|error| wrong(error.to_string()))?;
+    if is_kept {
+        job.say(&format!("read {}: of the same mesh and settings", job.output.folder.folder.join(&file).display()));
+    } else {
+        keep_file(job, &file, &bytes, span);
     }
-    let table = report(&meshed, &made, drift.said());
+    let made = databases.clone();
+    let table = report(&meshed, &quality, &drift.said(&meshed));
     for (body, data) in meshed.bodies.iter().zip(databases) {
         take_hull(&mut job.model, body);
         let attached = AttachedDatabase {
@@ -349,9 +348,9 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         database::attach(job, &body.name, attached, span)?;
         settle_pressure(&mut job.model, &body.name);
     }
-    warn_of_quality(job, &meshed, &made, span);
-    if let DriftSource::Motions(linear) = &drift
-        && let Some(text) = panel_drift::roll_warning(linear, &meshed, &made)
+    warn_of_quality(job, &meshed, &quality, span);
+    if let (DriftSource::Motions(linear), Some(data)) = (&drift, made.first())
+        && let Some(text) = panel_drift::roll_warning(linear, &meshed, data)
     {
         job.warn(text, span);
     }
@@ -359,7 +358,123 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         job.warn(format!("{all}: mean drift is left out: {why}"), span);
     }
     job.say_tables(&[table]);
-    Ok(())
+    if request.is_checked { panel_check::check(job, names, request, &meshed, (&made, &quality)) } else { Ok(()) }
+}
+
+/// The databases of bodies with another mesh, which are not kept.
+///
+/// # Errors
+/// As of [`compute`].
+pub fn solve_bodies(job: &Job, meshed: &MeshedBodies, request: &PanelRequest) -> Outcome<Vec<Database>> {
+    let mut drift = panel_drift::source(&job.model, meshed, request.has_drift);
+    let bytes = solve(job, meshed, &mut drift, request, "")?;
+    let wrong = |text: String| Diagnostic::error(format!("{}: {text}", meshed.names()), request.span);
+    meshed.databases(&bytes).map_err(wrong)
+}
+
+/// The bytes of a file of an earlier run that has a key.
+fn kept_file(job: &Job, file: &str, key: &str) -> Option<Vec<u8>> {
+    let path = job.output.folder.resolve(file).ok()?;
+    let size = path.symlink_metadata().ok().filter(|data| data.is_file())?.len();
+    if size > LARGEST_FILE {
+        return None;
+    }
+    let bytes = std::fs::read(path).ok()?;
+    (capytaine::attribute(&bytes, KEY).as_deref() == Some(key)).then_some(bytes)
+}
+
+/// Writes what was computed beside the answers; where that is refused it is said.
+fn keep_file(job: &mut Job, file: &str, bytes: &[u8], span: Span) {
+    match job.output.folder.write(file, bytes) {
+        Ok(path) => job.say(&format!("wrote {}", path.display())),
+        Err(error) => job.warn(format!("the results are not kept in a file: {error}"), span),
+    }
+}
+
+/// Solves the problem of bodies: the bytes of its file.
+fn solve(
+    job: &Job,
+    meshed: &MeshedBodies,
+    drift: &mut DriftSource,
+    request: &PanelRequest,
+    key: &str,
+) -> Outcome<Vec<u8>> {
+    let span = request.span;
+    let all = meshed.names();
+    let refused = |error: DiffractionError| Diagnostic::error(format!("{all}: {error}"), span);
+    let problem = meshed.problem(span)?;
+    let mut surfaces = Vec::new();
+    if !matches!(drift, DriftSource::None(_)) {
+        match panel_drift::surfaces(meshed, &problem) {
+            Ok(made) => surfaces = made,
+            Err(why) => *drift = DriftSource::None(why),
+        }
+    }
+    let mut made: Vec<FrequencyForces> = Vec::new();
+    let (mut drifts, mut energy) = (Vec::new(), Vec::new());
+    let bar = progress_bar(meshed.frequencies.len());
+    for frequency in &meshed.frequencies {
+        if job.is_interrupted() {
+            bar.finish_and_clear();
+            return Err(Diagnostic::error(format!("interrupted: {all} keeps the database it had, if any"), span));
+        }
+        let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
+        match panel_drift::of_frequency(drift, meshed, &surfaces, &waves, &request.headings) {
+            Ok(row) => drifts.extend(row),
+            Err(why) => *drift = DriftSource::None(why),
+        }
+        energy.push(waves.energy_difference());
+        made.push(waves.forces);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    if meshed.bodies.len() == 1 {
+        panel_drift::remove_noise(&mut drifts);
+    }
+    let infinite = problem.added_mass_limit(FrequencyLimit::Infinite).map_err(refused)?;
+    let drift = if let DriftSource::None(why) = drift { Err(why.as_str()) } else { Ok(drifts.as_slice()) };
+    let bodies = meshed.file_bodies();
+    let file = PressureFile {
+        bodies: &bodies,
+        water: meshed.water,
+        panel_size: meshed.size,
+        headings: &request.headings,
+        forces: &made,
+        energy: &energy,
+        infinite: &infinite,
+        drift,
+        key,
+    };
+    file.bytes().map_err(|error| Diagnostic::error(format!("{all}: {error}"), span))
+}
+
+/// What a solution is worth, frequency by frequency.
+pub struct Quality {
+    /// Products of the matrix until the equations were solved.
+    products: Vec<f64>,
+    /// Largest difference of exciting forces by pressure and by Haskind's relation, over the largest.
+    pub haskind: Vec<f64>,
+    /// Largest difference of the damping from the energy of the waves far away, over the largest of its kind.
+    pub energy: Vec<f64>,
+    /// Largest difference of added mass and damping from their transposes, over the largest of their kind.
+    pub asymmetry: Vec<f64>,
+    /// Largest difference of the sum of the drifts of several bodies from that by the waves far away, over the largest; none of a body alone.
+    drift: Option<Vec<f64>>,
+}
+
+impl Quality {
+    fn read(bytes: &[u8], meshed: &MeshedBodies) -> Result<Self, DatabaseError> {
+        let numbers = |name: &str| capytaine::numbers(SOURCE, bytes, name);
+        let several = meshed.bodies.len() > 1;
+        let drift = if several { numbers("drift_difference").ok() } else { None };
+        Ok(Quality {
+            products: numbers("products")?,
+            haskind: numbers("haskind_difference")?,
+            energy: numbers("energy_difference")?,
+            asymmetry: numbers("asymmetry")?,
+            drift,
+        })
+    }
 }
 
 /// The bar of a loop over periods.
@@ -382,9 +497,9 @@ fn take_hull(model: &mut Model, body: &MeshedBody) {
     }
 }
 
-fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, made: &[FrequencyForces], span: Span) {
+fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span: Span) {
     let all = meshed.names();
-    let poor = made.iter().map(FrequencyForces::excitation_difference).fold(0.0, f64::max);
+    let poor = quality.haskind.iter().copied().fold(0.0, f64::max);
     if poor > POOR_EXCITATION {
         let text = format!(
             "{all}: exciting forces by pressure and by Haskind's relation differ by {:.1} % of the largest: the panels are too large",
@@ -421,15 +536,19 @@ pub fn wave_length(frequency: f64, water: Water) -> f64 {
 }
 
 /// What was computed, a row a period.
-fn report(meshed: &MeshedBodies, made: &[FrequencyForces], drift: &str) -> Table {
+fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
     let water = meshed.water;
-    let rows: Vec<(f64, f64, f64, f64, usize)> = made
+    let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
+    let rows: Vec<(f64, f64, f64, f64, usize, f64)> = meshed
+        .frequencies
         .iter()
+        .enumerate()
         .rev()
-        .map(|forces| {
-            let length = wave_length(forces.frequency, water);
-            let relation = 100.0 * forces.excitation_difference();
-            (TAU / forces.frequency, length, length / meshed.size, relation, forces.iterations)
+        .map(|(i, frequency)| {
+            let length = wave_length(*frequency, water);
+            let sum = quality.drift.as_ref().map_or(f64::NAN, |list| 100.0 * at(list, i));
+            let products = at(&quality.products, i) as usize;
+            (TAU / frequency, length, length / meshed.size, 100.0 * at(&quality.haskind, i), products, sum)
         })
         .collect();
     let planes = match (meshed.mirrors.x, meshed.mirrors.y) {
@@ -439,14 +558,18 @@ fn report(meshed: &MeshedBodies, made: &[FrequencyForces], drift: &str) -> Table
         (true, true) => "fore and aft, port and starboard",
     };
     let images = meshed.mirrors.images().len();
-    let mut table = Table::new(format!("Pressures on {}", meshed.names()))
+    let table = Table::new(format!("Pressures on {}", meshed.names()))
         .with_rows(&rows)
         .column("", "Period", Dim::Time, Digits::Decimals(2), |row| row.0)
         .column("", "Wave Length", Dim::Length, Digits::Decimals(2), |row| row.1)
         .column("", "Panels a Wave", Dim::None, Digits::Decimals(1), |row| row.2)
         .column("", "Haskind", Dim::None, Digits::Decimals(3), |row| row.3)
-        .column("", "Products", Dim::None, Digits::Usual, |row| row.4)
-        .build();
+        .column("", "Products", Dim::None, Digits::Usual, |row| row.4);
+    let table = match &quality.drift {
+        Some(_) => table.column("", "Drift", Dim::None, Digits::Decimals(2), |row| row.5),
+        None => table,
+    };
+    let mut table = table.build();
     for body in &meshed.bodies {
         // of several bodies each fact names its own
         let fact = |text: &str| match meshed.bodies.len() {
@@ -477,6 +600,9 @@ fn report(meshed: &MeshedBodies, made: &[FrequencyForces], drift: &str) -> Table
     table.note(
         "Haskind: largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
     );
+    if quality.drift.is_some() {
+        table.note("Drift: largest difference of the sum of the bodies' drift from that of the waves far away, per cent of the largest");
+    }
     table
 }
 

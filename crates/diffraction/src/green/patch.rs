@@ -30,13 +30,13 @@ impl Interval {
         horner(&self.terms, (x - self.middle) * self.over_half)
     }
 
-    /// The polynomial at several arguments.
+    /// The polynomial at several arguments; each product and its sum are rounded once.
     #[inline(always)]
     pub fn evaluate_lanes(&self, x: &[f64; LANES]) -> [f64; LANES] {
-        let mut sums = [0.0; LANES];
+        let mut sums = [0.0_f64; LANES];
         for term in self.terms.iter().rev() {
             for (sum, x) in sums.iter_mut().zip(x) {
-                *sum = *sum * ((x - self.middle) * self.over_half) + term;
+                *sum = sum.mul_add((x - self.middle) * self.over_half, *term);
             }
         }
         sums
@@ -109,24 +109,24 @@ impl<const F: usize> Patch<F> {
 }
 
 impl<const F: usize> Patch<F> {
-    /// The functions at several points.
+    /// The functions at several points; each product and its sum are rounded once.
     #[inline(always)]
     pub fn evaluate_lanes(&self, first: &[f64; LANES], second: &[f64; LANES]) -> [[f64; LANES]; F] {
         let s = first.map(|x| (x - self.middle[0]) * self.over_half[0]);
         let t = second.map(|y| (y - self.middle[1]) * self.over_half[1]);
-        let mut sums = [[0.0; LANES]; F];
+        let mut sums = [[0.0_f64; LANES]; F];
         for (row, length) in self.terms.iter().zip(self.lengths).rev() {
-            let mut inner = [[0.0; LANES]; F];
+            let mut inner = [[0.0_f64; LANES]; F];
             for term in row[..length].iter().rev() {
                 for (values, term) in inner.iter_mut().zip(term) {
                     for (value, t) in values.iter_mut().zip(&t) {
-                        *value = *value * t + term;
+                        *value = value.mul_add(*t, *term);
                     }
                 }
             }
             for (values, inner) in sums.iter_mut().zip(&inner) {
                 for ((value, inner), s) in values.iter_mut().zip(inner).zip(&s) {
-                    *value = *value * s + inner;
+                    *value = value.mul_add(*s, *inner);
                 }
             }
         }

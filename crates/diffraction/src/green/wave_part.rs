@@ -195,9 +195,9 @@ impl WavePartTable {
     }
 }
 
-/// In the region near the source. Compiled for several widths of vector register; no product is contracted with its sum, so all give the same
+/// In the region near the source. Compiled for several widths of vector register, with the same operations, so that all give the same
 /// digits.
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
 fn near_lanes(patch: &Patch<2>, bessel: [&Interval; 2], x: &[f64; LANES], y: &[f64; LANES]) -> Parts {
     let mut d = [0.0; LANES];
     let mut c = [0.0; LANES];
@@ -222,7 +222,7 @@ fn near_lanes(patch: &Patch<2>, bessel: [&Interval; 2], x: &[f64; LANES], y: &[f
 }
 
 /// In a rectangle; compiled as [`near_lanes`].
-#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl", "x86_64+avx2"))]
+#[multiversion(targets("x86_64+avx512f+avx512dq+avx512vl+fma", "x86_64+avx2+fma"))]
 fn rectangle_lanes(patch: &Patch<2>, bessel: [&Interval; 2], x: &[f64; LANES], y: &[f64; LANES]) -> Parts {
     let [value, by_x] = patch.evaluate_lanes(x, y);
     let [j0, j1] = bessel.map(|interval| interval.evaluate_lanes(x));

@@ -1,6 +1,7 @@
 """Wave forces on two bottom-mounted cylinders of radius 1 that stand at (-2, 0) and (2, 0) in water 2 deep, by the exact series of Linton
 and Evans, J. Fluid Mech. 215, 1990, equations 2.11 and 2.14: total force over that of a cylinder alone, which MacCamy and Fuchs give.
-Writes two_cylinders.csv with X1 and X2 of each cylinder over rho g. Needs numpy and scipy."""
+Writes two_cylinders.csv with X1 and X2 of each cylinder over rho g, and two_cylinders_drift.csv with the mean drift of each along x and y over rho g, by the
+pressure on it: -1/4 int |zeta|^2 n dl + 1/(4 g) int |grad phi|^2 n dS, n out of the cylinder. Needs numpy and scipy."""
 import csv
 import numpy as np
 from scipy.special import h1vp, hankel1, jvp
@@ -27,6 +28,31 @@ def coefficients(k, heading):
         matrix[one * count : (one + 1) * count, other * count : (other + 1) * count] = block
     return np.linalg.solve(matrix, right).reshape(2, count)
 
+
+def drift(k, own):
+    """Mean force of the two components along x and y, of a cylinder with the coefficients A_n."""
+    orders = np.arange(-TERMS, TERMS + 1)
+    angles = 2 * np.pi * np.arange(256) / 256
+    turns = np.exp(1j * np.outer(angles, orders))
+    # elevation on the surface, by the Wronskian of J and H, and its slope along it
+    parts = -2j / (np.pi * k) * own / h1vp(orders, k)
+    f, slope = turns @ parts, turns @ (1j * orders * parts)
+    kh = k * DEPTH
+    cosh2 = (DEPTH / 2 + np.sinh(2 * kh) / (4 * k)) / np.cosh(kh) ** 2
+    sinh2 = (np.sinh(2 * kh) / (4 * k) - DEPTH / 2) / np.cosh(kh) ** 2
+    velocity = (abs(slope) ** 2 * cosh2 + k * k * abs(f) ** 2 * sinh2) / (k * np.tanh(kh))
+    pressure = 0.25 * (velocity - abs(f) ** 2) * 2 * np.pi / len(angles)
+    return (pressure * np.cos(angles)).sum(), (pressure * np.sin(angles)).sum()
+
+
+with open("two_cylinders_drift.csv", "w", newline="") as file:
+    file.write("# Mean drift over rho g of two bottom-mounted cylinders by the series of Linton and Evans (two_cylinders.py); radius 1, at x = -2 and 2, depth 2\n")
+    writer = csv.writer(file)
+    writer.writerow("k,heading deg,Fx a,Fy a,Fx b,Fy b".split(","))
+    for k in [0.6, 1.0, 1.5]:
+        for degrees in [0, 45]:
+            values = [v for own in coefficients(k, np.radians(degrees)) for v in drift(k, own)]
+            writer.writerow([k, degrees] + [f"{v:.8g}" for v in values])
 
 with open("two_cylinders.csv", "w", newline="") as file:
     file.write("# Two bottom-mounted cylinders by the series of Linton and Evans (two_cylinders.py); radius 1, at x = -2 and 2, depth 2\n")

@@ -82,6 +82,18 @@ fn open_and_inverted_meshes_are_refused() {
 }
 
 #[test]
+fn bodies_of_other_mirror_planes_or_beside_them_are_refused() {
+    let half = |x: f64, origin: f64| {
+        let quads: Vec<_> = box_at(x).iter().map(|quad| quad.map(|corner| corner)).collect();
+        let mesh = HullMesh::new(&quads, MirrorPlanes { x: false, y: true });
+        DiffractionBody { mesh: mesh.unwrap(), origin: Vector3::new(0.0, origin, 0.0) }
+    };
+    let made = |bodies: &[DiffractionBody]| DiffractionProblem::new(bodies, WATER).err();
+    assert_eq!(made(&[half(0.0, 0.0), body(&box_at(3.0))]), Some(DiffractionError::OtherMirrors(2)));
+    assert_eq!(made(&[half(0.0, 0.0), half(3.0, 0.1)]), Some(DiffractionError::OriginOffMirror(2)));
+}
+
+#[test]
 fn bodies_that_overlap_or_touch_are_refused() {
     let made = |x: f64| DiffractionProblem::new(&[body(&box_at(0.0)), body(&box_at(x))], WATER).err();
     assert_eq!(made(1.2), None);

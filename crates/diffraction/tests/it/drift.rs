@@ -3,7 +3,8 @@ use crate::hemisphere::{QUARTER, WATER, hemisphere, problem as of_hemisphere};
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::f64::consts::PI;
 use windlass_diffraction::{
-    ControlCylinder, DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes, free_motions,
+    ControlCylinder, ControlSurface, DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes,
+    free_motions,
 };
 
 const FIXED: [Complex<f64>; 6] = [Complex::new(0.0, 0.0); 6];
@@ -89,14 +90,14 @@ fn control_surface_drift_of_hemisphere_meets_exact_series() {
         let waves = problem.solve_waves((n[0] * WATER.gravity).sqrt(), &[0.0]).unwrap();
         let free = free_motions(&waves.forces, &free_hemisphere()).unwrap();
         for (motions, exact, largest) in [(vec![FIXED.to_vec()], n[9], 0.648), (free, n[10], 0.872)] {
-            let found = waves.control_surface_drift(&motions, &cylinder).unwrap()[0];
+            let found = waves.control_surface_drift(&motions, &ControlSurface::Cylinder(cylinder)).unwrap()[0];
             let surge = found.surge / (WATER.density * WATER.gravity);
             assert!((surge - exact).abs() < 0.015 * largest, "K {}: {surge} for {exact}", n[0]);
         }
     }
     let crossing = ControlCylinder { radius: 0.5, ..cylinder };
     let waves = problem.solve_waves(3.0, &[0.0]).unwrap();
-    assert!(waves.control_surface_drift(&[FIXED.to_vec()], &crossing).is_none());
+    assert!(waves.control_surface_drift(&[FIXED.to_vec()], &ControlSurface::Cylinder(crossing)).is_none());
 }
 
 #[test]

@@ -2,15 +2,20 @@
 //!
 //! Source: [CAPYTAINE-3 Conventions, Export outputs]: amplitudes go with exp(-i w t) and the wave is `exp(i k (x cos b + y sin b))`, as here;
 //! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
-//! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here.
+//! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here. A data set of
+//! G_PRESSURE has `body_axes` beside: its bodies have origins and axes of their own, to which all is turned, and mean drift.
 
 use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::matrix;
 use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
-use nalgebra::{Complex, Matrix6, Vector3};
+use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
 use netcdf_reader::{NcFile, NcOpenOptions};
-use windlass_model::{Amplitudes, Database, Interaction};
+use std::f64::consts::TAU;
+use windlass_model::{Amplitudes, Database, DriftTable, Interaction};
+
+/// A heading that is less than a whole turn by this (rad) is none.
+const HEADING_ROOM: f64 = 1e-9;
 
 /// Names of the directions in Capytaine.
 const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
@@ -248,9 +253,15 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     }
     data.frequencies = between.into_iter().map(|(_, w)| w).collect();
     if set.has("disp_mass") {
-        data.mass = set.single("disp_mass").ok().filter(|m| m.is_finite());
+        let masses = set.numbers("disp_mass")?.values;
+        let own = if masses.len() == 1 { 0 } else { data.index };
+        data.mass = masses.get(own).copied().filter(|m| m.is_finite());
     }
-    if set.has("rotation_center") {
+    if set.has("body_axes") {
+        let bodies = set.own_axes()?;
+        data.drift = set.mean_drift(&data, along)?;
+        turn_to_axes(&mut data, &bodies).ok_or_else(|| set.error("body_axes has fewer bodies than added_mass"))?;
+    } else if set.has("rotation_center") {
         let centre = set.numbers("rotation_center")?.values;
         let [x, y, z] = centre.as_slice() else {
             return Err(set.error("rotation_center is no single point"));
@@ -262,6 +273,146 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     let whole = |m: &Matrix6<f64>| m.iter().all(|v| v.is_finite());
     (data.zero, data.infinite) = (data.zero.filter(whole), data.infinite.filter(whole));
     check_database(data)
+}
+
+/// The value of a text attribute of a data set; none of what is no NetCDF file or has it not.
+pub fn attribute(bytes: &[u8], name: &str) -> Option<String> {
+    NcFile::from_bytes(bytes).ok()?.global_attribute(name).ok()?.value.as_string()
+}
+
+/// The numbers of a variable of a data set, whatever its dimensions.
+///
+/// # Errors
+/// What is no NetCDF file, or has no such numbers.
+pub fn numbers(source: &str, bytes: &[u8], name: &str) -> Result<Vec<f64>, DatabaseError> {
+    let file = NcFile::from_bytes(bytes).map_err(|e| DatabaseError::File {
+        file: source.to_string(),
+        why: format!("it is no NetCDF file that can be read: {e}"),
+    })?;
+    Ok(Set { source, file }.numbers(name)?.values)
+}
+
+/// A body of a data set of windlass, which has axes of its own.
+struct OwnAxes {
+    /// Its origin (m).
+    origin: Vector3<f64>,
+    /// From the axes of the data set to those of the body.
+    axes: Matrix3<f64>,
+    /// Its heading in the data set (rad).
+    heading: f64,
+}
+
+impl OwnAxes {
+    /// The same of forces and moments.
+    fn six(&self) -> Matrix6<f64> {
+        let mut made = Matrix6::zeros();
+        for at in [0, 3] {
+            made.fixed_view_mut::<3, 3>(at, at).copy_from(&self.axes);
+        }
+        made
+    }
+}
+
+impl Set<'_> {
+    fn own_axes(&self) -> Result<Vec<OwnAxes>, DatabaseError> {
+        let [axes, origins, headings] =
+            [self.numbers("body_axes")?, self.numbers("rotation_center")?, self.numbers("body_heading")?];
+        let (axes, origins) = (axes.values.as_chunks::<9>().0, origins.values.as_chunks::<3>().0);
+        let bodies = axes.iter().zip(origins).zip(&headings.values);
+        Ok(bodies
+            .map(|((axes, origin), heading)| OwnAxes {
+                origin: Vector3::from(*origin),
+                axes: Matrix3::from_row_slice(axes),
+                heading: *heading,
+            })
+            .collect())
+    }
+
+    /// Mean drift of a data set of windlass along its axes, at the headings and frequencies of its excitation.
+    fn mean_drift(&self, data: &Database, along: &str) -> Result<Option<DriftTable>, DatabaseError> {
+        if !self.has("mean_drift") {
+            return Ok(None);
+        }
+        let drift = self.numbers("mean_drift")?;
+        let directions = self.numbers("wave_direction")?.values;
+        let omega = self.numbers(along)?.values;
+        let place = |list: &[f64], same: &dyn Fn(f64) -> bool| list.iter().position(|x| same(*x));
+        let value = |heading: f64, frequency: f64| -> Option<[f64; 6]> {
+            let h = place(&directions, &|x| super::rows::same_heading(rows_heading(x), heading))?;
+            let w = place(&omega, &|x| x == frequency)?;
+            let at = |component: usize| {
+                drift.value_at(&[
+                    ("frequency", w),
+                    ("wave_direction", h),
+                    ("body", data.index),
+                    ("component", component),
+                ])
+            };
+            Some([at(0), at(1), 0.0, 0.0, 0.0, at(2)])
+        };
+        let row = |heading: &f64| data.frequencies.iter().map(|w| value(*heading, *w)).collect::<Option<Vec<_>>>();
+        let values: Option<Vec<_>> = data.headings.iter().map(row).collect();
+        let values = values.ok_or_else(|| self.error("mean_drift has not the headings of excitation_force"))?;
+        Ok(Some(DriftTable { frequencies: data.frequencies.clone(), headings: data.headings.clone(), values }))
+    }
+}
+
+/// A heading of a data set (rad) as it is kept.
+fn rows_heading(direction: f64) -> f64 {
+    heading(direction.to_degrees())
+}
+
+/// Turns a database to the axes of its body, about its origin and with phases there; none where there is no such body.
+fn turn_to_axes(data: &mut Database, bodies: &[OwnAxes]) -> Option<()> {
+    let own = bodies.get(data.index)?;
+    refer_phases(data, -own.origin.x, -own.origin.y);
+    let six = own.six();
+    let turn = |list: &mut [Matrix6<f64>], other: &Matrix6<f64>| {
+        list.iter_mut().for_each(|matrix| *matrix = six * *matrix * other.transpose());
+    };
+    turn(&mut data.added_mass, &six);
+    turn(&mut data.damping, &six);
+    for one in [&mut data.infinite, &mut data.zero, &mut data.hydrostatics].into_iter().flatten() {
+        *one = six * *one * six.transpose();
+    }
+    for made in &mut data.interactions {
+        let other = bodies.get(made.index)?;
+        let others = other.six();
+        turn(&mut made.added_mass, &others);
+        turn(&mut made.damping, &others);
+        made.infinite = made.infinite.map(|infinite| six * infinite * others.transpose());
+        let between = other.origin - own.origin;
+        let (sine, cosine) = own.heading.sin_cos();
+        made.place = Some([
+            between.x * cosine + between.y * sine,
+            between.y * cosine - between.x * sine,
+            other.heading - own.heading,
+        ]);
+    }
+    for force in data.excitation.iter_mut().flatten() {
+        let old = *force;
+        *force = std::array::from_fn(|row| (0..6).map(|column| old[column] * six[(row, column)]).sum());
+    }
+    // along the heading of the body
+    let (sine, cosine) = own.heading.sin_cos();
+    for [x, y, ..] in data.drift.iter_mut().flat_map(|drift| &mut drift.values).flatten() {
+        (*x, *y) = (*x * cosine + *y * sine, *y * cosine - *x * sine);
+    }
+    // headings from that of the body, growing again
+    let turned = |heading: &f64| {
+        let angle = (heading - own.heading).rem_euclid(TAU);
+        if angle > TAU - HEADING_ROOM { 0.0 } else { angle }
+    };
+    let headings: Vec<f64> = data.headings.iter().map(turned).collect();
+    let mut order: Vec<usize> = (0..headings.len()).collect();
+    order.sort_by(|a, b| headings[*a].total_cmp(&headings[*b]));
+    data.headings = order.iter().map(|at| headings[*at]).collect();
+    data.excitation = order.iter().filter_map(|at| data.excitation.get(*at).cloned()).collect();
+    if let Some(drift) = &mut data.drift {
+        drift.headings.clone_from(&data.headings);
+        drift.values = order.iter().filter_map(|at| drift.values.get(*at).cloned()).collect();
+    }
+    Some(())
 }
 
 /// Sees that dimensions that are not used have one place only.

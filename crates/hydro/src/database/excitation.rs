@@ -1,12 +1,12 @@
 //! First-order wave forces in time: the excitation of a database summed over the waves of a sea.
 //!
 //! `F(t) = Re sum X(b - yaw, w) a exp(i (k . x - w t + phase))` with the low-frequency place and heading of the body ([`low_frequency`]): in axes
-//! of that heading, at the place of the reference point there; between headings X is straight in real and imaginary part, so that the force has no
+//! of that heading, at the place of the reference point there; between headings X is what [`DatabaseLookup::excitation_at`] says, and has no
 //! jump when the body turns. First-order motion, roll and pitch among it, does not change it.
 //!
 //! [`low_frequency`]: crate::low_frequency
 
-use super::interpolation::DatabaseLookup;
+use super::interpolation::{DatabaseLookup, finer_headings};
 use super::waves::{WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, PreparedLoad, StatefulLoad};
 use crate::low_frequency::{LowFrequency, LowFrequencyPosition, dividing_period_of};
@@ -38,10 +38,11 @@ impl Excitation {
     pub fn new(data: &Database, sea: &Arc<Sea>) -> Result<Self, ClassError> {
         // about the reference point and with the phase there: the place of that point is used instead
         let about = Database { reference: Vector3::zeros(), ..data.clone() };
+        let headings = finer_headings(&data.headings);
         let mut list = Vec::new();
         for group in groups(sea) {
-            let table = WaveTable::build(&group, &data.headings, |h, w, a| {
-                let heading = data.headings[h];
+            let table = WaveTable::build(&group, &headings, |h, w, a| {
+                let heading = headings[h];
                 let x = about.excitation_at(heading, w)?;
                 Ok(std::array::from_fn(|n| if n < 6 { x[n].re * a } else { x[n - 6].im * a }))
             })?;

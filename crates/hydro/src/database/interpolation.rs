@@ -8,6 +8,14 @@ use windlass_model::{Amplitudes, ClassError, Database, DriftTable};
 /// The widest gap between two headings that is interpolated over (rad): 90 degrees, and a little for rounding.
 pub const WIDEST_GAP: f64 = std::f64::consts::FRAC_PI_2 + 1e-6;
 
+/// Amplitudes are straight between headings at most this far apart (rad), three degrees, to which the headings of a database are refined.
+const FINE_STEP: f64 = std::f64::consts::PI / 60.0;
+/// Gaps between headings that differ by less (rad) are equal.
+const EQUAL_GAPS: f64 = 1e-6;
+
+/// Headings of a list, by their place, with the share of each.
+pub(super) type HeadingShares = Vec<(usize, f64)>;
+
 /// Two neighbours in a list and the share of the second.
 pub(super) type Bracket = (usize, usize, f64);
 
@@ -61,6 +69,64 @@ pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket,
     Ok((low, high, from / gap))
 }
 
+/// The headings of a database, and between them as many equally far apart as leave no gap wider than three degrees; gaps that are not interpolated
+/// over stay. Growing in one turn.
+pub(super) fn finer_headings(headings: &[f64]) -> Vec<f64> {
+    let Some(first) = headings.first() else { return Vec::new() };
+    let next = headings.iter().skip(1).copied().chain([first + TAU]);
+    let mut made: Vec<f64> = headings
+        .iter()
+        .zip(next)
+        .flat_map(|(from, to)| {
+            let gap = to - from;
+            let parts = if gap > WIDEST_GAP { 1 } else { (gap / FINE_STEP - EQUAL_GAPS).ceil().max(1.0) as usize };
+            (0..parts).map(move |part| (from + gap * part as f64 / parts as f64).rem_euclid(TAU))
+        })
+        .collect();
+    made.sort_by(f64::total_cmp);
+    made
+}
+
+/// The shares of the headings of a database in an amplitude between them: of headings all round and equally far apart those of the trigonometric
+/// polynomial through all, of others those of the cubic through two on either side, of fewer where a gap is not interpolated over.
+///
+/// # Errors
+/// As of [`bracket_heading`].
+pub(super) fn heading_shares(headings: &[f64], heading: f64) -> Result<HeadingShares, ClassError> {
+    let (low, high, share) = bracket_heading(headings, heading)?;
+    let count = headings.len();
+    if low == high {
+        return Ok(vec![(low, 1.0)]);
+    }
+    let gap = |from: usize| (headings[(from + 1) % count] - headings[from]).rem_euclid(TAU);
+    if count >= 4 && (0..count).all(|from| (gap(from) - TAU / count as f64).abs() < EQUAL_GAPS) {
+        let half = 0.5 * count as f64;
+        let of = |own: &f64| {
+            let x = heading - own;
+            let over = if count.is_multiple_of(2) { (0.5 * x).tan() } else { (0.5 * x).sin() };
+            (half * x).sin() / (count as f64 * over)
+        };
+        return Ok(headings.iter().map(of).enumerate().collect());
+    }
+    // places along the gap, from its beginning
+    let own = gap(low);
+    let mut places = vec![(low, 0.0), (high, own)];
+    let before = (low + count - 1) % count;
+    if before != high && gap(before) <= WIDEST_GAP {
+        places.insert(0, (before, -gap(before)));
+    }
+    let behind = (high + 1) % count;
+    if behind != low && behind != before && gap(high) <= WIDEST_GAP {
+        places.push((behind, own + gap(high)));
+    }
+    let at = share * own;
+    let of = |(place, x): &(usize, f64)| {
+        let others = places.iter().filter(|other| other.0 != *place);
+        (*place, others.map(|(_, other)| (at - other) / (x - other)).product())
+    };
+    Ok(places.iter().map(of).collect())
+}
+
 /// Values of a database at any frequency and heading.
 pub trait DatabaseLookup {
     /// Added mass about the body's origin at a frequency (rad/s), straight between the frequencies given; held beyond them,
@@ -72,8 +138,9 @@ pub trait DatabaseLookup {
     fn damping_at(&self, frequency: f64) -> Option<Matrix6<f64>>;
 
     /// Excitation over wave amplitude about the body's origin, phases referred to it: the wave is `Re(a exp(-i w t))` there. The heading
-    /// (rad) is the direction of travel in the body. Straight between headings and frequencies in real and imaginary part; held
-    /// below the first frequency, beyond the last it falls in proportion to the period.
+    /// (rad) is the direction of travel in the body. Between headings it is the trigonometric polynomial through them where they are all round and
+    /// equally far apart, else a cubic, in real and imaginary part and in steps of at most three degrees. Straight between frequencies; held below
+    /// the first, beyond the last it falls in proportion to the period.
     ///
     /// # Errors
     /// A database without excitation; a heading in a gap wider than 90 degrees.
@@ -172,19 +239,40 @@ fn amplitudes_at(
     heading: f64,
     frequency: f64,
 ) -> Result<Amplitudes, ClassError> {
-    let (a, b, by_heading) = bracket_heading(headings, heading)?;
+    let shares = stepped_shares(headings, heading)?;
     let (i, j, by_frequency) = bracket_frequency(frequencies, frequency);
     let fade = match frequencies.last() {
         Some(last) if frequency > *last => last / frequency,
         _ => 1.0,
     };
-    let cell = |h: usize, f: usize| table[h][f];
-    let line = |h: usize| {
-        let (low, high) = (cell(h, i), cell(h, j));
-        [0, 1, 2, 3, 4, 5].map(|k: usize| low[k] + (high[k] - low[k]) * by_frequency)
-    };
-    let (low, high) = (line(a), line(b));
-    Ok([0, 1, 2, 3, 4, 5].map(|k: usize| (low[k] + (high[k] - low[k]) * by_heading) * fade))
+    let mut sum = Amplitudes::default();
+    for (row, share) in shares.into_iter().filter_map(|(place, share)| Some((table.get(place)?, share * fade))) {
+        let (Some(low), Some(high)) = (row.get(i), row.get(j)) else { continue };
+        for (sum, (low, high)) in sum.iter_mut().zip(low.iter().zip(high)) {
+            *sum += (low + (high - low) * by_frequency) * share;
+        }
+    }
+    Ok(sum)
+}
+
+/// As [`heading_shares`], straight between the refined headings: as waves in time take them from tables.
+///
+/// # Errors
+/// As of [`bracket_heading`].
+fn stepped_shares(headings: &[f64], heading: f64) -> Result<HeadingShares, ClassError> {
+    let (low, high, share) = bracket_heading(headings, heading)?;
+    if low == high {
+        return Ok(vec![(low, 1.0)]);
+    }
+    let (from, to) = (headings[low], headings[high]);
+    let gap = (to - from).rem_euclid(TAU);
+    let parts = (gap / FINE_STEP - EQUAL_GAPS).ceil().max(1.0);
+    let part = (share * parts).floor().min(parts - 1.0);
+    let beyond = share * parts - part;
+    let at = |part: f64| heading_shares(headings, from + gap * part / parts);
+    let mut made: HeadingShares = at(part)?.into_iter().map(|(place, own)| (place, own * (1.0 - beyond))).collect();
+    made.extend(at(part + 1.0)?.into_iter().map(|(place, own)| (place, own * beyond)));
+    Ok(made)
 }
 
 /// A force about a point as one about the origin that `arm` leads from.

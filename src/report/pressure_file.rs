@@ -1,0 +1,263 @@
+//! What G_PRESSURE computed as NetCDF, in the layout of Capytaine's data sets, which xarray opens and DATABASE reads.
+//!
+//! Source: [CAPYTAINE-3 Outputs, Export outputs] for dimensions and names: `omega`, `radiating_dof`, `influenced_dof`, `wave_direction`, `complex`. The last
+//! of `omega` is infinity, with the added mass alone. What Capytaine has not, for bodies with axes of their own, stands on the dimensions
+//! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading` and `mean_drift`.
+
+use super::netcdf::{Shared, to_store_error};
+use super::stored::{SOURCE, StoreError};
+use nalgebra::{DMatrix, Matrix3, Vector3};
+use netcdf3::{DataSet, FileWriter, Version};
+use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
+
+/// Names of the motions, as Capytaine has them.
+const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
+/// The attribute that tells whether a file is of the same mesh and settings.
+pub const KEY: &str = "windlass_key";
+
+/// The attribute that tells why there is no mean drift.
+pub const NO_DRIFT: &str = "mean_drift_missing";
+
+/// A body of a file.
+#[derive(Clone, Debug)]
+pub struct FileBody {
+    /// Its name.
+    pub name: String,
+    /// Its origin, about which forces and motions are (m).
+    pub origin: Vector3<f64>,
+    /// From the axes of the file to those of the body.
+    pub axes: Matrix3<f64>,
+    /// Its heading in the file (rad).
+    pub heading: f64,
+    /// Displaced mass (kg).
+    pub mass: f64,
+}
+
+/// Mean drift of a frequency.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyDrift {
+    /// By heading and body: surge, sway and yaw over the square of the wave amplitude, about the origin of the body (N/m2, N/m).
+    pub values: Vec<Vec<[f64; 3]>>,
+    /// Of several bodies, heading by heading: the sum of their forces, and that by the waves far away (N/m2).
+    pub sums: Vec<[[f64; 2]; 2]>,
+}
+
+/// What a file holds: along the axes of the first body's heading, z up from the water level, SI and radians.
+#[derive(Clone, Debug)]
+pub struct PressureFile<'a> {
+    /// The bodies.
+    pub bodies: &'a [FileBody],
+    /// The water.
+    pub water: Water,
+    /// Size of the panels (m).
+    pub panel_size: f64,
+    /// Where the waves go to (rad).
+    pub headings: &'a [f64],
+    /// Frequency by frequency.
+    pub forces: &'a [FrequencyForces],
+    /// Of each: largest difference of the damping from the energy of the waves far away, over the largest of its kind.
+    pub energy: &'a [f64],
+    /// Added mass at infinite frequency.
+    pub infinite: &'a DMatrix<f64>,
+    /// Mean drift, or why there is none.
+    pub drift: Result<&'a [BodyDrift], &'a str>,
+    /// What mesh and settings make it.
+    pub key: &'a str,
+}
+
+impl PressureFile<'_> {
+    /// The bytes of the file.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn bytes(&self) -> Result<Vec<u8>, StoreError> {
+        let alone = self.bodies.len() == 1;
+        let name = |body: &FileBody, dof: &str| if alone { dof.to_owned() } else { format!("{}__{dof}", body.name) };
+        let dofs: Vec<String> =
+            self.bodies.iter().flat_map(|body| DOFS.iter().map(move |dof| name(body, dof))).collect();
+        let width = dofs.iter().map(String::len).max().unwrap_or(1);
+        let letters: Vec<u8> = dofs.iter().flat_map(|dof| padded(dof, width)).collect();
+        let count = dofs.len();
+        let mut made = Writer::new(&self.title(), self.key)?;
+        for (dimension, size) in [
+            ("omega", self.forces.len() + 1),
+            ("radiating_dof", count),
+            ("influenced_dof", count),
+            ("dof_name", width),
+            ("wave_direction", self.headings.len()),
+            ("complex", 2),
+            ("complex_name", 2),
+            ("body", self.bodies.len()),
+            ("xyz", 3),
+            ("component", 3),
+            ("frequency", self.forces.len()),
+        ] {
+            made.set.add_fixed_dim(dimension, size).map_err(to_store_error)?;
+        }
+        let omega: Vec<f64> = self.forces.iter().map(|forces| forces.frequency).chain([f64::INFINITY]).collect();
+        made.numbers("omega", &["omega"], "rad/s", "frequency; the last is infinity", omega)?;
+        for dimension in ["radiating_dof", "influenced_dof"] {
+            made.letters(dimension, &[dimension, "dof_name"], letters.clone())?;
+        }
+        made.letters("complex", &["complex", "complex_name"], b"reim".to_vec())?;
+        made.numbers("wave_direction", &["wave_direction"], "rad", "where the waves go to", self.headings.to_vec())?;
+        let matrices = |of: &dyn Fn(&FrequencyForces) -> &DMatrix<f64>, last: &DMatrix<f64>| -> Vec<f64> {
+            let all = self.forces.iter().map(of).chain([last]);
+            // the radiating motion is the column
+            all.flat_map(|matrix| matrix.iter().copied()).collect()
+        };
+        let places = ["omega", "radiating_dof", "influenced_dof"];
+        let added = matrices(&|forces| &forces.added_mass, self.infinite);
+        made.numbers("added_mass", &places, "kg, kg m, kg m2", "added mass", added)?;
+        let none = DMatrix::zeros(count, count);
+        let damping = matrices(&|forces| &forces.damping, &none);
+        made.numbers("radiation_damping", &places, "N s/m, N s, N m s", "radiation damping", damping)?;
+        for (name, text, of) in [
+            (
+                "excitation_force",
+                "exciting force for an amplitude of 1 m, by pressure",
+                &(|forces: &FrequencyForces| forces.excitation.clone()) as &dyn Fn(&FrequencyForces) -> _,
+            ),
+            ("haskind_force", "the same by Haskind's relation", &|forces| forces.haskind.clone()),
+        ] {
+            let all: Vec<_> = self.forces.iter().map(of).collect();
+            let missing = || std::iter::repeat_n(f64::NAN, self.headings.len() * count);
+            let re = all.iter().flatten().flatten().map(|value| value.re).chain(missing());
+            let im = all.iter().flatten().flatten().map(|value| value.im).chain(missing());
+            let values = re.chain(im).collect();
+            made.numbers(name, &["complex", "omega", "wave_direction", "influenced_dof"], "N/m, N", text, values)?;
+        }
+        let products = self.forces.iter().map(|forces| forces.iterations as f64).collect();
+        made.numbers(
+            "products",
+            &["frequency"],
+            "1",
+            "products of the matrix until the equations were solved",
+            products,
+        )?;
+        let points = |of: &dyn Fn(&FileBody) -> Vec<f64>| self.bodies.iter().flat_map(of).collect::<Vec<f64>>();
+        let origins = points(&|body| body.origin.iter().copied().collect());
+        made.numbers("rotation_center", &["body", "xyz"], "m", "origins of motions and moments", origins)?;
+        let axes = points(&|body| body.axes.transpose().iter().copied().collect());
+        made.numbers(
+            "body_axes",
+            &["body", "xyz", "component"],
+            "1",
+            "from the axes of the file to those of the body",
+            axes,
+        )?;
+        made.numbers("body_heading", &["body"], "rad", "heading of the body", points(&|body| vec![body.heading]))?;
+        made.numbers("disp_mass", &["body"], "kg", "displaced mass", points(&|body| vec![body.mass]))?;
+        let haskind = self.forces.iter().map(FrequencyForces::excitation_difference).collect();
+        let text = "largest difference of both exciting forces, over the largest";
+        made.numbers("haskind_difference", &["frequency"], "1", text, haskind)?;
+        let text =
+            "largest difference of the damping from the energy of the waves far away, over the largest of its kind";
+        made.numbers("energy_difference", &["frequency"], "1", text, self.energy.to_vec())?;
+        let asymmetry = self.forces.iter().map(FrequencyForces::asymmetry).collect();
+        let text = "largest difference of added mass and damping from their transposes, over the largest of their kind";
+        made.numbers("asymmetry", &["frequency"], "1", text, asymmetry)?;
+        match self.drift {
+            Ok(drift) => {
+                let values = drift.iter().flat_map(|own| own.values.iter().flatten().flatten()).copied().collect();
+                let places = ["frequency", "wave_direction", "body", "component"];
+                made.numbers("mean_drift", &places, "N/m2, N/m", "mean drift in surge, sway and yaw", values)?;
+                if !alone {
+                    let text =
+                        "largest difference of the sum of the bodies' drift from that far away, over the largest";
+                    made.numbers("drift_difference", &["frequency"], "1", text, drift_differences(drift))?;
+                }
+            }
+            Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
+        }
+        for (name, unit, text, value) in [
+            ("rho", "kg/m3", "density", self.water.density),
+            ("g", "m/s2", "gravity", self.water.gravity),
+            ("water_depth", "m", "depth; infinity is deep water", self.water.depth.unwrap_or(f64::INFINITY)),
+            ("forward_speed", "m/s", "forward speed", 0.0),
+            ("panel_size", "m", "size of the panels", self.panel_size),
+        ] {
+            made.numbers(name, &[], unit, text, vec![value])?;
+        }
+        made.finish()
+    }
+
+    fn title(&self) -> String {
+        let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
+        format!("G_PRESSURE of {}", names.join(", "))
+    }
+}
+
+/// Frequency by frequency, over the largest force of all.
+fn drift_differences(drift: &[BodyDrift]) -> Vec<f64> {
+    let size = |[x, y]: [f64; 2]| x.hypot(y);
+    let largest = drift.iter().flat_map(|own| &own.sums).map(|[_, far]| size(*far)).fold(0.0, f64::max);
+    let of = |own: &BodyDrift| {
+        let off = own.sums.iter().map(|[sum, far]| size([sum[0] - far[0], sum[1] - far[1]]));
+        if largest > 0.0 { off.fold(0.0, f64::max) / largest } else { 0.0 }
+    };
+    drift.iter().map(of).collect()
+}
+
+/// A word filled up with zeros.
+fn padded(word: &str, width: usize) -> impl Iterator<Item = u8> + '_ {
+    word.bytes().chain(std::iter::repeat(0)).take(width)
+}
+
+/// Values of a variable.
+enum Values {
+    Numbers(Vec<f64>),
+    Letters(Vec<u8>),
+}
+
+/// A file being made.
+struct Writer {
+    set: DataSet,
+    values: Vec<(String, Values)>,
+}
+
+impl Writer {
+    fn new(title: &str, key: &str) -> Result<Self, StoreError> {
+        let mut set = DataSet::new();
+        for (name, text) in [("title", title), ("source", SOURCE), (KEY, key)] {
+            set.add_global_attr_string(name, text).map_err(to_store_error)?;
+        }
+        Ok(Writer { set, values: Vec::new() })
+    }
+
+    fn numbers(
+        &mut self,
+        name: &str,
+        dimensions: &[&str],
+        unit: &str,
+        text: &str,
+        values: Vec<f64>,
+    ) -> Result<(), StoreError> {
+        self.set.add_var_f64(name, dimensions).map_err(to_store_error)?;
+        self.set.add_var_attr_string(name, "units", unit).map_err(to_store_error)?;
+        self.set.add_var_attr_string(name, "long_name", text).map_err(to_store_error)?;
+        self.values.push((name.to_owned(), Values::Numbers(values)));
+        Ok(())
+    }
+
+    fn letters(&mut self, name: &str, dimensions: &[&str], values: Vec<u8>) -> Result<(), StoreError> {
+        self.set.add_var_u8(name, dimensions).map_err(to_store_error)?;
+        self.values.push((name.to_owned(), Values::Letters(values)));
+        Ok(())
+    }
+
+    fn finish(self) -> Result<Vec<u8>, StoreError> {
+        let shared = Shared::default();
+        let mut writer = FileWriter::open_seek_write("", Box::new(shared.clone())).map_err(to_store_error)?;
+        writer.set_def(&self.set, Version::Offset64Bit, 0).map_err(to_store_error)?;
+        for (name, values) in &self.values {
+            match values {
+                Values::Numbers(list) => writer.write_var_f64(name, list),
+                Values::Letters(list) => writer.write_var_u8(name, list),
+            }
+            .map_err(to_store_error)?;
+        }
+        writer.close().map_err(to_store_error)?;
+        Ok(shared.into_bytes())
+    }
+}
