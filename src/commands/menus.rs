@@ -38,7 +38,7 @@ const AQWA: OptionSpec = OptionSpec::new(
 const MOORDYN: OptionSpec = OptionSpec::new(
     "-MOORDYN",
     &[ValueSpec::new("FILE", Kind::File, "the deck; looked for where it says, then beside the script")],
-    "reads the model of a MoorDyn deck",
+    "reads the model of a deck of MoorDyn, MoorPy or MAP++",
 )
 .owner(Owner::Ours);
 const STATIC: OptionSpec = OptionSpec::new("-STATIC", &[], "reads the lines of a MoorDyn deck as quasi-static ones")
@@ -54,9 +54,10 @@ static INMODEL_SPEC: CommandSpec = CommandSpec {
              AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
              the ground, *N9010, its tethers and lines connectors T1, L1 .. and its sea the environment in force; a file of INMODEL that is a deck is read so by itself. \
              `windlass NAME.dat` also runs it, and writes its records to NAME.cif in the folder of answers. -MOORDYN reads a deck of MoorDyn \
-             2 or 1, or of MoorPy: fixed points become points *P1 .. of the ground, coupled ones points of a body VESSEL, free ones junctions P3 .., \
-             bodies BODY1 .., lines connectors L1 .. that begin at the fairlead (MoorDyn's end B), and depth, density and g defaults and the environment \
-             in force. VESSEL and coupled bodies stand still until PRESCRIBE moves them. A line is a dynamic one of class ROD with NumSegs elements; with \
+             2 or 1, of MoorPy, or a file of MAP++: fixed points become points *P1 .. of the ground, coupled ones points of a body VESSEL, free ones junctions P3 .., \
+             bodies BODY1 .., rods bodies ROD1 .. of one TUBE or parts of their body, lines connectors L1 .. that begin at the fairlead (MoorDyn's end B), and depth, density and g defaults and the environment \
+             in force, with the currents, waves and seafloor of the files beside the deck. A file of MAP++ has the water in force, and static lines alone. What is coupled stands still until PRESCRIBE moves it; \
+             a body VESSEL that the model has takes the coupled points, and moves as it did. A line is a dynamic one of class ROD with NumSegs elements; with \
              -STATIC it is a B_CAT to an anchor on the seabed, else an H_CAT. A load that is not read is an error at its word.",
     example: "INMODEL\n&DESCRIBE BODY TBRG\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 500\nEND",
     ..CommandSpec::new("INMODEL", "reads the model")

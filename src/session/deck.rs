@@ -3,6 +3,7 @@
 use super::Session;
 use crate::commands::{DECK_HEAD, PLAIN, SCRIPT, existing};
 use crate::report::page;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use windlass_aqwa::job::Program;
 use windlass_aqwa::listing::ListingPart;
@@ -16,7 +17,8 @@ use windlass_base::units::Dim;
 use windlass_hydro::sea::Sea;
 use windlass_language::source::Text;
 use windlass_model::Model;
-use windlass_moordyn::records::LineModel;
+use windlass_moordyn::files::FileText;
+use windlass_moordyn::records::{CallerWater, LineModel, Settings, VESSEL};
 
 /// Records made of a deck, with the cards or rows they are made of.
 #[derive(Clone, Debug)]
@@ -106,7 +108,12 @@ impl Session {
         if is_failed {
             return;
         }
-        match windlass_moordyn::records::records(&reading.deck, lines) {
+        let Some(files) = self.files_of_deck(&reading.deck, path) else { return };
+        let around = self.job.model.surroundings();
+        let water = CallerWater { depth: around.depth, density: around.water_density, gravity: around.gravity };
+        let has_vessel = self.job.model.bodies.contains_key(VESSEL);
+        let settings = Settings { lines, water, has_vessel, files: &files };
+        match windlass_moordyn::records::records(&reading.deck, &settings) {
             Ok(records) => {
                 let taken = self.names_taken(&records);
                 if !taken.is_empty() {
@@ -132,16 +139,50 @@ impl Session {
         }
     }
 
-    /// Classes and points of a MoorDyn deck whose names the model has: their records would add a segment or move the point.
+    /// The files beside a MoorDyn deck that it needs; nothing when one cannot be read, which is reported.
+    fn files_of_deck(
+        &mut self,
+        deck: &windlass_moordyn::Deck,
+        path: &Path,
+    ) -> Option<BTreeMap<String, FileText<String>>> {
+        let mut found = BTreeMap::new();
+        for file in deck.files() {
+            let beside = path.parent().unwrap_or(Path::new("")).join(&file.name);
+            let read = existing(&self.job, &beside.to_string_lossy(), file.span).and_then(|path| {
+                self.job.output.folder.note_reading(&path);
+                let text = self.unsaved.read(&path).map_err(|error| Diagnostic::error(error.to_string(), file.span))?;
+                Ok((path, text))
+            });
+            match read {
+                Ok((path, text)) => {
+                    let source = self.interpreter.sources.add(&file.name, text.clone(), 1);
+                    self.source_files.push((source, path));
+                    found.insert(file.name, FileText { text: text.as_str().to_string(), source });
+                }
+                Err(error) => {
+                    self.report(*error);
+                    return None;
+                }
+            }
+        }
+        Some(found)
+    }
+
+    /// Classes, points and bodies of a MoorDyn deck whose names the model has: their records would add a segment, move the point or load the body.
     fn names_taken(&self, records: &windlass_moordyn::records::Records) -> Vec<Diagnostic> {
         let model = &self.job.model;
         let mut errors = Vec::new();
         for (at, origin) in &records.origins {
             let record = records.text.get(*at..).unwrap_or_default();
             let name = record.split_whitespace().next().unwrap_or_default();
-            let (kind, is_taken) = match name.get(..1) {
-                Some("~") => ("class", model.classes.contains_key(&Model::key(name))),
-                Some("*") => ("point", model.points.contains_key(&Model::key(name))),
+            let described = record.strip_prefix("&DESCRIBE BODY ").and_then(|rest| rest.split_whitespace().next());
+            let (kind, name, is_taken) = match name.get(..1) {
+                _ if described.is_some() => {
+                    let body = described.unwrap_or_default();
+                    ("body", body, body != VESSEL && model.bodies.contains_key(&Model::key(body)))
+                }
+                Some("~") => ("class", name, model.classes.contains_key(&Model::key(name))),
+                Some("*") => ("point", name, model.points.contains_key(&Model::key(name))),
                 _ => continue,
             };
             if is_taken {

@@ -112,8 +112,10 @@ mod time {
     mod drift_time_domain;
     mod fix_connectors;
     mod frequency;
+    mod given_waves;
     mod line_scheme;
     mod low_frequency_position;
+    mod lumps;
     mod members_time_domain;
     mod missing_added_mass;
     mod moses_posts;

@@ -5,7 +5,7 @@
 //! this is the drag of that area alone.
 
 use super::steady::{Medium, Steady};
-use super::stream::{LoadPlace, StreamLoad, StreamWrench};
+use super::stream::{Immersion, LoadPlace, StreamLoad, StreamWrench};
 use nalgebra::{Matrix6x3, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::Six;
@@ -23,12 +23,12 @@ pub struct AreaLoad {
 impl AreaLoad {
     /// Wind on areas along the axes of the body (m2, shape coefficient included) at a point of it (m), whatever its height.
     pub fn wind(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
-        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Air, shared: false }, areas)
+        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Air, immersion: Immersion::Whole }, areas)
     }
 
     /// The same for current.
     pub fn current(steady: Arc<Steady>, areas: [f64; 3], at: Vector3<f64>) -> Self {
-        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Water, shared: false }, areas)
+        AreaLoad::new(steady, LoadPlace { at, medium: Medium::Water, immersion: Immersion::Whole }, areas)
     }
 
     /// Areas along the axes of the body (m2, shape coefficients included), at a place.

@@ -7,10 +7,11 @@ use super::drag::{LinearDrag, at_origin, rotate_matrix};
 use super::drift::{self, DriftLoad, DriftRow};
 use super::growth::Growth;
 use super::heading::ByHeading;
+use super::lump::{self, LumpSurroundings};
 use super::plate::PlateLoad;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
-use super::stream::LoadPlace;
+use super::stream::{Immersion, LoadPlace};
 use super::{
     BodyLoad, BodyStep, Category, DividedLoad, DynamicLoad, InertialLoad, Load, PreparedLoad, StatefulLoad, pieces,
     roll_damping,
@@ -61,6 +62,25 @@ impl BodyLoad for PointBuoyancy {
             load.stiffness += rise * rise.transpose() * (self.force / self.height);
         }
         Ok(load)
+    }
+}
+
+/// A constant force, `#FORCE`.
+#[derive(Debug)]
+struct ConstantForce {
+    /// On the axes of space (N).
+    force: Vector3<f64>,
+    /// Its place in the body (m).
+    at: Vector3<f64>,
+}
+
+impl BodyLoad for ConstantForce {
+    fn category(&self) -> Category {
+        Category::Applied
+    }
+
+    fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
+        Ok(Load::constant(self.force, pose.axes * self.at))
     }
 }
 
@@ -194,16 +214,19 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
         let frame = PartAxes { part, axes: *part.position.rotation().matrix(), level: model.surroundings().tide };
         for load in &mine {
             let (before, mass, damping) = (sum.loads.len(), sum.added_mass, sum.damping);
-            add_part_load(&mut sum, &steady, &frame, load, under_way)?;
+            add_part_load(&mut sum, &steady, &frame, load, sea)?;
             let factor = |attribute| model.load_factor(&part.name, load.group.as_deref(), &load.category, attribute);
             sum.added_mass = mass + (sum.added_mass - mass) * factor(Attribute::AddedMass);
             sum.damping = damping + (sum.damping - damping) * factor(Attribute::Drag);
             let made = sum.loads.split_off(before);
             sum.loads.extend(made.into_iter().map(|made| {
-                let attribute = match made.category() {
-                    Category::Wind => Attribute::Wind,
-                    Category::Buoyancy => Attribute::Buoyancy,
-                    _ => Attribute::Drag,
+                let of_attribute = match made.category() {
+                    // of &APPLY the load groups alone
+                    Category::Applied => model.multipliers.group(load.group.as_deref().unwrap_or(&part.name)),
+                    Category::Wind => factor(Attribute::Wind),
+                    Category::Buoyancy => factor(Attribute::Buoyancy),
+                    Category::Wave => factor(Attribute::AddedMass),
+                    _ => factor(Attribute::Drag),
                 };
                 let [wind, drag] = load.shape_coefficients;
                 let shape = match made.category() {
@@ -212,7 +235,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
                     _ => 1.0,
                 };
                 let force = model.multipliers.categories.get(made.category().name()).unwrap_or(&1.0);
-                let whole = shape * factor(attribute) * force;
+                let whole = shape * of_attribute * force;
                 if whole == 1.0 { made } else { scale_load(made, whole) }
             }));
         }
@@ -257,8 +280,9 @@ fn add_part_load(
     steady: &Arc<Steady>,
     frame: &PartAxes,
     load: &PartLoad,
-    under_way: bool,
+    sea: Option<Option<&Arc<Sea>>>,
 ) -> Result<(), ClassError> {
+    let under_way = sea.is_some();
     let at = frame.point(load);
     match &load.kind {
         LoadKind::Drag(matrix) => {
@@ -274,6 +298,13 @@ fn add_part_load(
         LoadKind::Buoyancy { force, size } => {
             sum.loads.push(Box::new(PointBuoyancy { force: *force, at, height: size[2], level: frame.level }));
         }
+        LoadKind::Lump(given) => {
+            let matrix = lump::added_mass(given, steady.around.water_density);
+            sum.added_mass += at_origin(&matrix, &frame.axes, at);
+            let around = LumpSurroundings { steady, sea: sea.flatten(), is_under_way: under_way };
+            sum.loads.extend(lump::build_lump_loads(given, (at, frame.axes), &around));
+        }
+        LoadKind::Force(force) => sum.loads.push(Box::new(ConstantForce { force: Vector3::from(*force), at })),
         _ => {
             let media: &[Medium] = match load.fluid {
                 Fluid::ByHeight => &[Medium::Air, Medium::Water],
@@ -281,7 +312,9 @@ fn add_part_load(
                 Fluid::Water => &[Medium::Water],
             };
             for medium in media.iter().copied().filter(|m| under_way || !steady.is_still(*m)) {
-                let position = LoadPlace { at, medium, shared: load.fluid == Fluid::ByHeight };
+                let by_height = load.fluid == Fluid::ByHeight;
+                let immersion = if by_height { Immersion::Passage } else { Immersion::Whole };
+                let position = LoadPlace { at, medium, immersion };
                 sum.loads.push(in_stream(Arc::clone(steady), frame, position, load)?);
             }
         }

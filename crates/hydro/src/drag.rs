@@ -2,7 +2,7 @@
 
 use super::steady::{Medium, Steady};
 use super::stream::category;
-use super::stream::{LoadPlace, StreamWrench};
+use super::stream::{Immersion, LoadPlace, StreamWrench};
 use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load, cross};
 use nalgebra::{Matrix3, Matrix6, Matrix6x3, Vector3};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ impl LinearDrag {
     /// A matrix in body axes (N s/m, N s, N m s) at a point of the body (m). The current at the depth of the point acts
     /// through its first three columns; the water does not turn.
     pub fn new(steady: Arc<Steady>, at: Vector3<f64>, matrix: &Matrix6<f64>) -> Self {
-        let position = LoadPlace { at, medium: Medium::Water, shared: false };
+        let position = LoadPlace { at, medium: Medium::Water, immersion: Immersion::Whole };
         LinearDrag { steady, position, by_velocity: matrix.fixed_columns::<3>(0).into_owned() }
     }
 

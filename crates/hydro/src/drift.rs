@@ -11,7 +11,7 @@ use super::heading::ByHeading;
 use super::sea::Sea;
 use super::spectrum::WaveEnergies;
 use super::steady::{Medium, Steady};
-use super::stream::{LoadPlace, StreamWrench};
+use super::stream::{Immersion, LoadPlace, StreamWrench};
 use super::{BodyLoad, Category, Load};
 use nalgebra::{Matrix6x3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -135,7 +135,7 @@ impl BodyLoad for DriftLoad {
         let turned = nalgebra::RowVector3::new(-travel.y, travel.x, 0.0) / square;
         let by_velocity: Matrix6x3<f64> = slope * turned;
         // a stream of speed one: only its direction counts
-        let position = LoadPlace { at: self.at, medium: Medium::Water, shared: false };
+        let position = LoadPlace { at: self.at, medium: Medium::Water, immersion: Immersion::Whole };
         let push = StreamWrench { wrench: value, by_velocity };
         Ok(position.load_in(&self.steady, pose, (self.toward, Vector3::zeros()), |_| push))
     }

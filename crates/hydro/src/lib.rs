@@ -32,6 +32,7 @@ pub mod hull;
 mod junction;
 mod linear;
 pub mod low_frequency;
+mod lump;
 pub mod morison;
 pub mod parts;
 pub mod pieces;

@@ -13,7 +13,7 @@ use super::sea::density::Spectrum;
 use super::sea::spectra::{self, PeriodInput, PeriodType, SeaState, ShapeParameter, WaveForm, jonswap};
 use std::f64::consts::TAU;
 use windlass_base::units::Dim;
-use windlass_model::{ClassError, Curve, CurveKind, Environment, Model, SeaDefinition};
+use windlass_model::{ClassError, Curve, CurveKind, Environment, GivenWave, Model, SeaDefinition};
 
 /// A sea as energies.
 #[derive(Clone, Debug, PartialEq)]
@@ -135,6 +135,22 @@ impl WaveEnergies {
         Ok(WaveEnergies {
             energies: build_spectrum(model, env, sea, None)?.map_or_else(regular, |spectrum| spectrum.energies()),
         })
+    }
+
+    /// The energies of waves given one by one, by the direction they come from (rad).
+    pub fn by_direction(waves: &[GivenWave]) -> Vec<(f64, Self)> {
+        let mut found: Vec<(f64, Self)> = Vec::new();
+        for wave in waves {
+            let energy = (wave.frequency, 0.5 * wave.amplitude * wave.amplitude);
+            match found.iter_mut().find(|(direction, _)| *direction == wave.direction) {
+                Some((_, own)) => own.energies.push(energy),
+                None => found.push((wave.direction, WaveEnergies { energies: vec![energy] })),
+            }
+        }
+        for (_, own) in &mut found {
+            own.energies.sort_by(|a, b| a.0.total_cmp(&b.0));
+        }
+        found
     }
 
     /// JONSWAP of a significant height (m) and a period (s); ISSC with gamma 1.

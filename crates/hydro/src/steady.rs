@@ -1,6 +1,7 @@
 //! What is steady around a body: water, wind, current, and the mean of the waves.
 
 use super::current::CurrentField;
+use super::sea::given::given_trains;
 use super::spectrum::WaveEnergies;
 use super::variation::{StreamVariation, Variation};
 use super::wind::WindField;
@@ -86,6 +87,12 @@ impl Steady {
             let (cos, sin) = windlass_base::geometry::unit_vector(sea.direction);
             waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(WaveEnergies::new(model, env, sea)?)));
         }
+        for train in given_trains(model, env)? {
+            for (direction, energies) in WaveEnergies::by_direction(&train.waves) {
+                let (cos, sin) = windlass_base::geometry::unit_vector(direction);
+                waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(energies)));
+            }
+        }
         Ok(Steady {
             around,
             wind: WindField::from_environment(env)?,
@@ -100,7 +107,7 @@ impl Steady {
     /// # Errors
     /// As [`Steady::from_environment`], but for the seas.
     pub fn streams(model: &Model, env: &Environment) -> Result<Self, ClassError> {
-        Steady::from_environment(model, &Environment { sea: None, added_sea: None, ..env.clone() })
+        Steady::from_environment(model, &env.clone().without_sea())
     }
 
     /// With what varies in time: gusts, and histories of wind and current.

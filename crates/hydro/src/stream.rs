@@ -55,6 +55,20 @@ pub(super) fn category(medium: Medium) -> Category {
     }
 }
 
+/// How much of a load acts, by the height of its point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Immersion {
+    /// All of it, wherever the point is.
+    Whole,
+    /// By a smooth passage of half a metre about the surface.
+    Passage,
+    /// By the share of a sphere about the point that is under the mean level.
+    Sphere {
+        /// Its radius (m).
+        half_height: f64,
+    },
+}
+
 /// Where and in what a point load acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadPlace {
@@ -62,11 +76,24 @@ pub struct LoadPlace {
     pub at: Vector3<f64>,
     /// In air or water.
     pub medium: Medium,
-    /// Whether the height of the point decides how much of it acts.
-    pub shared: bool,
+    /// How much of it acts.
+    pub immersion: Immersion,
 }
 
 impl LoadPlace {
+    /// How much of the load acts with its point at a height (m, global), and the change of that with the height (1/m).
+    pub fn immersed_share(&self, steady: &Steady, z: f64) -> (f64, f64) {
+        match self.immersion {
+            Immersion::Whole => (1.0, 0.0),
+            Immersion::Passage => steady.share(self.medium, z),
+            Immersion::Sphere { half_height } => {
+                // the share of the volume of a sphere under a plane
+                let s = ((steady.around.tide - z + half_height) / (2.0 * half_height)).clamp(0.0, 1.0);
+                (s * s * (3.0 - 2.0 * s), -3.0 * s * (1.0 - s) / half_height)
+            }
+        }
+    }
+
     /// The load on the body at rest that `push` makes in the mean stream at the point.
     pub fn load(&self, steady: &Steady, pose: &Pose, push: impl Fn(Vector3<f64>) -> StreamWrench) -> Load {
         let stream = steady.velocity(self.medium, pose.point(self.at).z);
@@ -91,10 +118,21 @@ impl LoadPlace {
         at: &BodyStep,
         push: impl Fn(Vector3<f64>) -> StreamWrench,
     ) -> DynamicLoad {
+        self.dynamic_load_in_waves(steady, at, Vector3::zeros(), push)
+    }
+
+    /// The same where waves add a velocity to the stream (m/s, global), which is taken as it is for the step.
+    pub fn dynamic_load_in_waves(
+        &self,
+        steady: &Steady,
+        at: &BodyStep,
+        of_waves: Vector3<f64>,
+        push: impl Fn(Vector3<f64>) -> StreamWrench,
+    ) -> DynamicLoad {
         let arm = at.pose.axes * self.at;
         let (own, spin) = (at.velocity.fixed_rows::<3>(0), at.velocity.fixed_rows::<3>(3).into_owned());
         let (stream, slope) = steady.streams_at_time(at.time).velocity(self.medium, at.pose.origin.z + arm.z);
-        let relative = stream - own - spin.cross(&arm);
+        let relative = stream + of_waves - own - spin.cross(&arm);
         // the arm turns by d x r, and with it its velocity by spin x (d x r)
         let carried = cross(spin) * cross(arm);
         let (load, [force, moment]) = self.exert(steady, at.pose, (relative, slope), carried, push);
@@ -122,7 +160,7 @@ impl LoadPlace {
     ) -> (Load, [Matrix3<f64>; 2]) {
         let (axes, arm) = (pose.axes, pose.axes * self.at);
         let z = pose.origin.z + arm.z;
-        let (share, share_slope) = if self.shared { steady.share(self.medium, z) } else { (1.0, 0.0) };
+        let (share, share_slope) = self.immersed_share(steady, z);
         let StreamWrench { wrench, by_velocity } = push(axes.transpose() * stream);
         let halves = |m: &Matrix6x3<f64>| -> [Matrix3<f64>; 2] {
             [m.fixed_rows::<3>(0).into_owned(), m.fixed_rows::<3>(3).into_owned()]

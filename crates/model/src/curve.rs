@@ -18,6 +18,8 @@ pub enum CurveKind {
     WindHistory,
     /// Current (ours): time (s), factor.
     CurrentHistory,
+    /// Waves (ours): time (s), elevation (m).
+    ElevationHistory,
     /// Load multiplier: time (s), factor.
     LoadMultiplier,
     /// Connector length change: time (s), length (m).
@@ -43,6 +45,7 @@ impl CurveKind {
         ("M_GROWTH", CurveKind::MarineGrowth),
         ("W_HISTORY", CurveKind::WindHistory),
         ("C_HISTORY", CurveKind::CurrentHistory),
+        ("S_HISTORY", CurveKind::ElevationHistory),
         ("LT_MULTIPLIER", CurveKind::LoadMultiplier),
         ("CT_LENGTH", CurveKind::ConnectorLength),
         ("EFFICIENCY", CurveKind::Efficiency),
@@ -66,6 +69,7 @@ impl CurveKind {
             CurveKind::MarineGrowth => [("Elevation", Dim::Length), ("Added OD", Dim::Section)],
             CurveKind::WindHistory => [("Time", Dim::Time), ("Speed", Dim::WindSpeed)],
             CurveKind::CurrentHistory | CurveKind::LoadMultiplier => [("Time", Dim::Time), ("Factor", Dim::None)],
+            CurveKind::ElevationHistory => [("Time", Dim::Time), ("Elevation", Dim::Length)],
             CurveKind::ConnectorLength => [("Time", Dim::Time), ("Length", Dim::Length)],
             CurveKind::Efficiency | CurveKind::DragVelocity => [("Velocity", Dim::Velocity), ("Factor", Dim::None)],
             CurveKind::AddedMassPressure => [("Elevation", Dim::Length), ("Factor", Dim::None)],

@@ -222,7 +222,7 @@ impl Model {
         let data = attached.data.as_ref();
         let mut list = Vec::new();
         let env = &self.environment;
-        let waves = [&env.sea, &env.added_sea].into_iter().flatten().any(|sea| sea.height > 0.0);
+        let waves = env.has_waves();
         let own = |part: &str| self.parts_of(body).any(|p| Model::key(&p.name) == Model::key(part));
         let drifts = self.loads.iter().any(|load| matches!(load.kind, LoadKind::Drift { .. }) && own(&load.part));
         let lacks_drift = data.drift.is_none() && data.qtf.is_none() && attached.drift != DriftMethod::None;

@@ -24,6 +24,30 @@ pub struct SeaDefinition {
     pub positions: [Span; 4],
 }
 
+/// A wave given by itself: `zeta = a cos(k x - w t + phase)`, x along its travel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GivenWave {
+    /// Frequency (rad/s).
+    pub frequency: f64,
+    /// Amplitude (m).
+    pub amplitude: f64,
+    /// Phase (rad).
+    pub phase: f64,
+    /// Direction it comes from (rad).
+    pub direction: f64,
+}
+
+/// The elevation over time at x = y = 0: `-S_HISTORY`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ElevationHistory {
+    /// Its curve.
+    pub curve: CurveReference,
+    /// Direction its waves come from (rad).
+    pub direction: f64,
+    /// Highest frequency of its waves (rad/s), where given.
+    pub highest: Option<f64>,
+}
+
 impl SeaDefinition {
     /// Where one of its values was written, by its position in `-SEA`.
     pub fn position(&self, index: usize) -> Span {
@@ -220,6 +244,10 @@ pub struct Environment {
     pub sea: Option<SeaDefinition>,
     /// Second sea added to the first.
     pub added_sea: Option<SeaDefinition>,
+    /// Waves given one by one (`-WAVES`).
+    pub waves: Vec<GivenWave>,
+    /// Elevation over time (`-S_HISTORY`).
+    pub elevation: Option<ElevationHistory>,
     /// Wind.
     pub wind: Option<Wind>,
     /// Profile of the mean wind, with its exponent (`-W_PROFILE`).
@@ -281,6 +309,18 @@ pub struct Environment {
 }
 
 impl Environment {
+    /// The same without waves.
+    pub fn without_sea(self) -> Self {
+        Environment { sea: None, added_sea: None, waves: Vec::new(), elevation: None, ..self }
+    }
+
+    /// Whether it has waves of some height.
+    pub fn has_waves(&self) -> bool {
+        [&self.sea, &self.added_sea].into_iter().flatten().any(|sea| sea.height > 0.0)
+            || self.waves.iter().any(|wave| wave.amplitude > 0.0)
+            || self.elevation.is_some()
+    }
+
     /// The curves it names: current profiles, spectra, those of its options.
     pub fn curves(&self) -> Box<dyn Iterator<Item = &str> + '_> {
         let profiles = match &self.current {

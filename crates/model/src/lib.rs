@@ -73,8 +73,8 @@ pub use element::{
     SolverCache, SpringState, StiffTie, TiedBodies, TimeStep,
 };
 pub use environment::{
-    Components, Current, CurveReference, Division, Environment, FormulaChoice, GustParts, PeriodType, Phasing,
-    SeaDefinition, Stretching, Surroundings, TimeWindow, Wind, WindCode, WindLaw,
+    Components, Current, CurveReference, Division, ElevationHistory, Environment, FormulaChoice, GivenWave, GustParts,
+    PeriodType, Phasing, SeaDefinition, Stretching, Surroundings, TimeWindow, Wind, WindCode, WindLaw,
 };
 pub use fatigue::{FatigueCurve, FatigueKind, FatigueSegment, FatigueSelection, ThicknessCorrection};
 pub use hull::{Breadths, ElementOf, LinearHydrostatics, Member, Piece, Shape, WaveAction, bar_panels, box_panels};
@@ -82,7 +82,7 @@ pub use idealisation::{Idealisation, add_model_column};
 pub use line::{
     AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, LineSampling, Placement,
 };
-pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Multipliers, PartLoad};
+pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Lump, Multipliers, PartLoad};
 pub use member_section::{MemberSection, SectionOutline};
 pub use names::EntityKind;
 pub use note::Note;

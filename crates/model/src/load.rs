@@ -54,6 +54,10 @@ pub enum LoadKind {
         /// Lengths along the axes of the part (m).
         size: [f64; 3],
     },
+    /// A small body in the water.
+    Lump(Lump),
+    /// A constant force on the axes of space (N).
+    Force([f64; 3]),
     /// Eddy damping of the roll of the hull of its part, times this factor.
     EddyDamping(f64),
     /// Mean wave drift in waves from one direction.
@@ -65,6 +69,23 @@ pub enum LoadKind {
         /// Whether the other side mirrors this one.
         symmetric: bool,
     },
+}
+
+/// A small body in the water.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Lump {
+    /// Its volume (m3).
+    pub volume: f64,
+    /// Whether its volume has buoyancy: that of a junction has it already.
+    pub is_buoyant: bool,
+    /// Whether all of it acts wherever the point is, and not the share that is under water.
+    pub is_constant: bool,
+    /// Drag coefficient times area along the axes of the part (m2).
+    pub drag_areas: [f64; 3],
+    /// The same against turning about them (m5).
+    pub rotary_drag: [f64; 3],
+    /// Coefficients of added mass along them, on the displaced mass.
+    pub added: [f64; 3],
 }
 
 /// A load on a point of a part.
@@ -86,6 +107,22 @@ pub struct PartLoad {
     pub group: Option<String>,
     /// Where it was given.
     pub span: Span,
+}
+
+impl PartLoad {
+    /// One at the origin of a part, in no load group of its own and of the category that records without one have.
+    pub fn at_origin(part: &str, kind: LoadKind, span: Span) -> Self {
+        PartLoad {
+            part: part.to_string(),
+            at: [0.0; 3],
+            fluid: Fluid::Water,
+            kind,
+            shape_coefficients: [1.0; 2],
+            category: crate::EXTRA.to_string(),
+            group: None,
+            span,
+        }
+    }
 }
 
 /// Nodes of a part whose loads share a name, which `&APPLY` multiplies.
@@ -112,6 +149,8 @@ impl LoadKind {
             LoadKind::Damping(_) => "#DAMP",
             LoadKind::AddedMass(_) => "#AMASS",
             LoadKind::Buoyancy { .. } => "#BUOY",
+            LoadKind::Lump(_) => "#LUMP",
+            LoadKind::Force(_) => "#FORCE",
             LoadKind::EddyDamping(_) => "#TANAKA",
             LoadKind::Drift { .. } => "#DRIFT",
         }

@@ -42,15 +42,37 @@ pub(crate) struct Layout {
     order: Vec<usize>,
 }
 
+/// The program whose order of columns holds where the names do not, for messages.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    MoorDyn,
+    Map,
+}
+
+impl Dialect {
+    const fn program(self) -> &'static str {
+        match self {
+            Dialect::MoorDyn => "MoorDyn v2",
+            Dialect::Map => "MAP++",
+        }
+    }
+}
+
 /// A column name without what decks write around it: `CG*`, `Cd?`.
 fn bare(name: &str) -> &str {
     name.trim_matches(['*', '(', ')', '[', ']'])
 }
 
 impl Layout {
-    /// The layout of a section. A head with a name that is not known leaves the order of version 2, with a
-    /// warning, or is an error where its other names have another order; names in another order than that of version 2 are a warning too.
-    pub(crate) fn new(section: &Section<'_>, columns: &'static [Column], messages: &mut Vec<Diagnostic>) -> Self {
+    /// The layout of a section. A head with a name that is not known leaves the order of the program, with a
+    /// warning, or is an error where its other names have another order; names in another order than the program's are a warning too.
+    pub(crate) fn new(
+        section: &Section<'_>,
+        columns: &'static [Column],
+        dialect: Dialect,
+        messages: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let program = dialect.program();
         let mut order = Vec::new();
         for word in &section.columns.words {
             // bodies have Y0 and y0: the first that is still free
@@ -61,7 +83,7 @@ impl Layout {
                 None => {
                     let known = columns.iter().filter_map(|c| c.names.first().copied()).collect::<Vec<_>>().join(" ");
                     let warning = Diagnostic::warning(format!("column {} is not known here", word.value), word.span);
-                    let warning = warning.label("columns are read in MoorDyn v2's order");
+                    let warning = warning.label(format!("columns are read in {program}'s order"));
                     // where the names that are known stand elsewhere than in that order, it is not the order of this table
                     let place = |w: &Word<'_>| {
                         columns.iter().position(|c| c.names.iter().any(|n| n.eq_ignore_ascii_case(bare(w.value))))
@@ -69,7 +91,7 @@ impl Layout {
                     let mut named = section.columns.words.iter().enumerate();
                     if named.any(|(index, w)| w.value != "y0" && place(w).is_some_and(|p| p != index)) {
                         let error = Diagnostic::error(format!("column {} is not known here", word.value), word.span);
-                        let error = error.label("the other columns are not in MoorDyn v2's order");
+                        let error = error.label(format!("the other columns are not in {program}'s order"));
                         messages.push(*error.help(format!("known: {known}")));
                         return Layout { columns, order };
                     }
@@ -81,9 +103,11 @@ impl Layout {
         // names in another order than MoorDyn 2 reads: what is written is taken, and that it differs is said
         let moved = order.windows(2).position(|pair| matches!(pair, [a, b] if a > b));
         if let Some(word) = moved.and_then(|index| section.columns.words.get(index + 1)) {
-            let warning = Diagnostic::warning("columns stand in another order than in MoorDyn v2", word.span);
+            let text = format!("columns stand in another order than in {program}");
+            let warning = Diagnostic::warning(text, word.span);
             let warning = warning.label("the names are followed");
-            messages.push(*warning.help("MoorDyn v2 skips the names and reads its own order: it gives other answers"));
+            let help = format!("{program} skips the names and reads its own order: it gives other answers");
+            messages.push(*warning.help(help));
         }
         if order.is_empty() {
             order = (0..columns.len()).collect();

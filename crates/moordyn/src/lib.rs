@@ -1,5 +1,5 @@
-//! MoorDyn decks [MOORDYN-2], read into [`Deck`]: version 2, the section names and column orders of version 1, and the decks MoorPy
-//! [MOORPY-1] writes.
+//! MoorDyn decks [MOORDYN-2], read into [`Deck`]: version 2, the section names and column orders of version 1, the decks MoorPy
+//! [MOORPY-1] writes, and files of MAP++.
 //!
 //! [`records`] translates a deck into records of windlass. In a [`Deck`] nothing is converted: values are in the units of the deck (SI, angles in degrees; z up from the mean water level). Every value has its
 //! place. The columns of a table are taken by the names in its head, where all of them are known; else in the order of version 2, with a
@@ -8,7 +8,9 @@
 //! A load that windlass does not compute is an error at its word: vortex-induced vibration, viscoelastic and Syrope ropes, tables of bending
 //! stiffness, failures, controls, external loads, currents by time or place. So is an option that is not known, which MoorDyn passes over.
 //!
-//! Not done here: the files that a deck names are not opened, and MAP++ files, whose lines have no number of segments, are refused.
+//! Files of MAP++ [MAP-PP] are read into the same tables: [`map`].
+//!
+//! Not done here: the files that a deck names are not opened; [`files`] reads their texts.
 //!
 //! # Example
 //! ```
@@ -40,13 +42,16 @@
 #![deny(missing_docs)]
 
 mod checks;
+pub mod files;
 mod layout;
+pub mod map;
 pub mod options;
 pub mod records;
 mod row;
 mod section;
 pub mod tables;
 
+use map::MapOptions;
 use options::Options;
 use tables::{Body, Line, LineType, Point, Rod, RodType};
 use windlass_base::diagnostic::{Diagnostic, Severity};
@@ -80,6 +85,8 @@ pub struct Deck {
     pub options: Options,
     /// OUTPUTS: the names of channels.
     pub outputs: Vec<Given<String>>,
+    /// SOLVER OPTIONS of a file of MAP++; `None`: another deck.
+    pub map: Option<MapOptions>,
 }
 
 /// What came of reading a deck.
@@ -101,10 +108,15 @@ impl Reading {
 /// Reads the text of a deck. `source` is the text's id in the places of values and messages.
 pub fn read(text: &str, source: SourceId) -> Reading {
     let mut messages = Vec::new();
-    let mut deck = Deck::default();
-    for section in section::split(text, source, &mut messages) {
+    let is_map = map::is_map(text);
+    let mut deck = Deck { map: is_map.then(MapOptions::default), ..Deck::default() };
+    for section in section::split(text, source, is_map, &mut messages) {
         tables::read(&section, &mut deck, &mut messages);
     }
+    if is_map {
+        map::match_names(&mut deck);
+    }
     checks::check(&deck, source, &mut messages);
+    map::copy(&mut deck, &mut messages);
     Reading { deck, messages }
 }

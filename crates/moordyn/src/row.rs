@@ -12,17 +12,19 @@ pub(crate) type Word<'a> = Given<&'a str>;
 pub(crate) struct Row<'a> {
     pub(crate) words: Vec<Word<'a>>,
     pub(crate) span: Span,
+    /// Whether the line begins with a blank.
+    pub(crate) is_indented: bool,
 }
 
-/// The words of a line that begins at a byte of the source; a word with `#` begins a comment.
-pub(crate) fn words(line: &str, offset: usize, source: SourceId) -> Row<'_> {
+/// The words of a line that begins at a byte of the source; a word with `#` begins a comment, but in files of MAP++, where it marks a guess.
+pub(crate) fn words(line: &str, offset: usize, source: SourceId, has_comments: bool) -> Row<'_> {
     let mut list = Vec::new();
     let mut at = 0;
     for piece in line.split_inclusive(|c: char| c.is_whitespace() || c == '\0') {
         let word = piece.trim_end_matches(|c: char| c.is_whitespace() || c == '\0');
         let start = offset + at;
         at += piece.len();
-        if word.contains('#') {
+        if has_comments && word.contains('#') {
             break;
         }
         if !word.is_empty() {
@@ -31,7 +33,8 @@ pub(crate) fn words(line: &str, offset: usize, source: SourceId) -> Row<'_> {
     }
     let first = line.len() - line.trim_start().len();
     let last = line.trim_end().len();
-    Row { words: list, span: Span::new(source, offset + first.min(last), offset + last) }
+    let is_indented = first > 0 && first < line.len();
+    Row { words: list, span: Span::new(source, offset + first.min(last), offset + last), is_indented }
 }
 
 /// A finite number, whole to the last character: MoorDyn reads `6l2` as 6.

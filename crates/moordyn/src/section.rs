@@ -50,11 +50,12 @@ const NAMES: [(&str, SectionKind); 27] = [
     ("EXTERNAL LOAD", SectionKind::Refused),
 ];
 
-/// One section: its head, the row of column names, and the rows of values.
+/// One section: its head, the rows of column names and of units, and the rows of values.
 pub(crate) struct Section<'a> {
     pub(crate) kind: SectionKind,
     pub(crate) head: Span,
     pub(crate) columns: Row<'a>,
+    pub(crate) units: Row<'a>,
     pub(crate) rows: Vec<Row<'a>>,
 }
 
@@ -66,7 +67,14 @@ fn kind_of(head: &str) -> Option<(SectionKind, &'static str)> {
 }
 
 /// The sections of a text. Text before the first head is free; behind it, rows under a head without a name are an error.
-pub(crate) fn split<'a>(text: &'a str, source: SourceId, messages: &mut Vec<Diagnostic>) -> Vec<Section<'a>> {
+///
+/// A file of MAP++ has names and units behind the head of its options too, and no comments in its rows.
+pub(crate) fn split<'a>(
+    text: &'a str,
+    source: SourceId,
+    is_map: bool,
+    messages: &mut Vec<Diagnostic>,
+) -> Vec<Section<'a>> {
     let mut sections: Vec<Section<'a>> = Vec::new();
     // whether rows belong to the last section, and how many lines of names and units are still to come
     let mut is_open = false;
@@ -74,7 +82,7 @@ pub(crate) fn split<'a>(text: &'a str, source: SourceId, messages: &mut Vec<Diag
     let mut nameless: Option<Span> = None;
     let mut offset = 0;
     for line in text.split_inclusive('\n') {
-        let row = words(line, offset, source);
+        let row = words(line, offset, source, !is_map);
         offset += line.len();
         if line.contains("---") {
             let head = row.span;
@@ -88,28 +96,28 @@ pub(crate) fn split<'a>(text: &'a str, source: SourceId, messages: &mut Vec<Diag
                     );
                     messages.push(*error.help("take the section out to run the system without it"));
                 }
-                heading_lines = if matches!(kind, SectionKind::Options | SectionKind::Outputs) { 0 } else { 2 };
-                sections.push(Section { kind, head, columns: Row::default(), rows: Vec::new() });
+                let is_headless = matches!(kind, SectionKind::Options | SectionKind::Outputs) && !is_map;
+                heading_lines = if is_headless { 0 } else { 2 };
+                sections.push(Section { kind, head, columns: Row::default(), units: Row::default(), rows: Vec::new() });
                 is_open = true;
                 continue;
             }
             let title = line.trim().trim_matches('-').trim();
             let near = if title.is_empty() { Vec::new() } else { nearest(title, NAMES.iter().map(|&(name, _)| name)) };
             if let Some(near) = near.first() {
-                // text before the first section is free, and a title may well resemble a name
-                let message = format!("section {title} is not known");
-                let found = if sections.is_empty() {
-                    Diagnostic::warning(message, head)
-                } else {
-                    Diagnostic::error(message, head)
-                };
-                messages.push(*found.help(format!("did you mean {near}?")));
+                let error = Diagnostic::error(format!("section {title} is not known"), head);
+                let error = error.help(format!("did you mean {near}?"));
+                messages.push(*error.help("a title is a line without ---, or one that resembles no section"));
             } else if !sections.is_empty() {
                 nameless = Some(head);
             }
         } else if is_open && heading_lines > 0 {
-            if let (2, Some(section)) = (heading_lines, sections.last_mut()) {
-                section.columns = row;
+            if let Some(section) = sections.last_mut() {
+                if heading_lines == 2 {
+                    section.columns = row;
+                } else {
+                    section.units = row;
+                }
             }
             heading_lines -= 1;
         } else if row.words.is_empty() {

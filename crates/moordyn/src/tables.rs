@@ -1,6 +1,7 @@
 //! The tables of a deck: types of lines and rods, bodies, rods, points, lines.
 
-use crate::layout::{Column, Layout, column, newer, optional};
+use crate::layout::{Column, Dialect, Layout, column, newer, optional};
+use crate::map;
 use crate::options;
 use crate::row::{Row, Word, count, number, numbers, size};
 use crate::section::{Section, SectionKind};
@@ -40,6 +41,8 @@ pub struct LineType {
     pub cd_axial: Given<f64>,
     /// Axial added-mass coefficient, on the displaced mass.
     pub ca_axial: Given<f64>,
+    /// CB: friction on the seabed, in files of MAP++.
+    pub friction: Option<Given<f64>>,
 }
 
 /// A row of ROD TYPES.
@@ -168,10 +171,12 @@ pub struct Line {
     pub ends: [Given<LineEnd>; 2],
     /// Unstretched length (m).
     pub length: Given<f64>,
-    /// Segments.
+    /// Segments; 0 in files of MAP++, which have none.
     pub segments: Given<usize>,
     /// Letters of its own output file, as written; `-` for none.
     pub outputs: Given<String>,
+    /// Whether the seabed bears it: false with OMIT_CONTACT of MAP++.
+    pub has_contact: bool,
 }
 
 const LINE_TYPES: [Column; 13] = [
@@ -284,6 +289,10 @@ const LINES: [Column; 7] = [
 
 /// Reads a section into the deck.
 pub(crate) fn read(section: &Section<'_>, deck: &mut Deck, messages: &mut Vec<Diagnostic>) {
+    if deck.map.is_some() {
+        map::read(section, deck, messages);
+        return;
+    }
     let has = |name: &str| section.columns.words.iter().any(|word| word.value.eq_ignore_ascii_case(name));
     match section.kind {
         SectionKind::LineTypes => {
@@ -317,7 +326,7 @@ fn rows<T>(
     list: &mut Vec<T>,
     messages: &mut Vec<Diagnostic>,
 ) {
-    let layout = Layout::new(section, columns, messages);
+    let layout = Layout::new(section, columns, Dialect::MoorDyn, messages);
     for row in &section.rows {
         let read = layout.place(row).and_then(|words| reader(&Cells::new(words, row, columns)));
         match read {
@@ -331,18 +340,18 @@ fn rows<T>(
 }
 
 /// The words of one row by column; a column that the row does not have reads as the word beside its use.
-struct Cells<'a> {
+pub(crate) struct Cells<'a> {
     words: Vec<Option<Word<'a>>>,
     columns: &'static [Column],
-    span: Span,
+    pub(crate) span: Span,
 }
 
 impl<'a> Cells<'a> {
-    fn new(words: Vec<Option<Word<'a>>>, row: &Row<'a>, columns: &'static [Column]) -> Self {
+    pub(crate) fn new(words: Vec<Option<Word<'a>>>, row: &Row<'a>, columns: &'static [Column]) -> Self {
         Cells { words, columns, span: row.span }
     }
 
-    fn word_or(&self, index: usize, absent: &'static str) -> Word<'a> {
+    pub(crate) fn word_or(&self, index: usize, absent: &'static str) -> Word<'a> {
         self.words.get(index).cloned().flatten().unwrap_or(Given { value: absent, span: self.span })
     }
 
@@ -350,7 +359,7 @@ impl<'a> Cells<'a> {
         self.columns.get(index).and_then(|c| c.names.first().copied()).unwrap_or_default()
     }
 
-    fn text(&self, index: usize) -> Given<String> {
+    pub(crate) fn text(&self, index: usize) -> Given<String> {
         let word = self.word_or(index, "-");
         Given { value: word.value.to_string(), span: word.span }
     }
@@ -359,7 +368,7 @@ impl<'a> Cells<'a> {
         number(&self.word_or(index, "0"), self.name(index))
     }
 
-    fn size(&self, index: usize, is_positive: bool) -> Outcome<Given<f64>> {
+    pub(crate) fn size(&self, index: usize, is_positive: bool) -> Outcome<Given<f64>> {
         size(&self.word_or(index, "0"), self.name(index), is_positive)
     }
 
@@ -367,7 +376,7 @@ impl<'a> Cells<'a> {
         numbers(&self.word_or(index, "0"), self.name(index), counts)
     }
 
-    fn count(&self, index: usize, least: usize) -> Outcome<Given<usize>> {
+    pub(crate) fn count(&self, index: usize, least: usize) -> Outcome<Given<usize>> {
         count(&self.word_or(index, "0"), self.name(index), least)
     }
 
@@ -406,6 +415,7 @@ fn line_type(cells: &Cells<'_>) -> Outcome<LineType> {
         ca_normal: cells.size(7, false)?,
         cd_axial: cells.size(8, false)?,
         ca_axial: cells.size(9, false)?,
+        friction: None,
     })
 }
 
@@ -556,11 +566,12 @@ fn line(cells: &Cells<'_>) -> Outcome<Line> {
         length: cells.size(4, true)?,
         segments: cells.count(5, 1)?,
         outputs: cells.text(6),
+        has_contact: true,
     })
 }
 
 /// `5`, `P5`, `Point5`, `C5`, `Con5`, `R1A`, `Rod1B`.
-fn line_end(word: &Word<'_>) -> Outcome<Given<LineEnd>> {
+pub(crate) fn line_end(word: &Word<'_>) -> Outcome<Given<LineEnd>> {
     let upper = word.value.to_ascii_uppercase();
     let digits = upper.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     let prefix = &upper[..upper.len() - digits.len()];

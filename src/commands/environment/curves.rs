@@ -34,7 +34,7 @@ static SPEC: CommandSpec = CommandSpec {
     opens: Opens::AtMost(&menu::CURVES, 1),
     data: &[ValueSpec::choice::<DataKind>("KIND", "what is defined")],
     detail: "&DATA CURVES TYPE NAME a1 b1 a2 b2 .. with TYPE C_PROFILE (depth, velocity), P_SPECTRUM (period, density), \
-             F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), C_HISTORY (ours: time, factor of the current), LT_MULTIPLIER, \
+             F_SPECTRUM (frequency, density), M_GROWTH (elevation, added OD), W_HISTORY (time, knots), C_HISTORY (ours: time, factor of the current), S_HISTORY (ours: time, elevation of waves), LT_MULTIPLIER, \
              CT_LENGTH, EFFICIENCY, CS_VELOCITY or AM_PRESSURE; the first value grows. &DATA CURVES alone opens a menu of \
              such records, TYPE NAME a1 b1 .., up to END. &DATA CONVOLUTION TIME NAME t1 K1 .. or FREQUENCY NAME f1 K1 .. is the \
              stiffness of a viscoelastic spring, which -CONVOLUTION of a class puts in series: its force is the integral of \
@@ -141,6 +141,20 @@ pub static C_HISTORY: Command = Command {
     },
     edits: false,
     run: |job, call| define(job, call, CurveKind::CurrentHistory),
+};
+/// S_HISTORY within `&DATA CURVES`.
+pub static S_HISTORY: Command = Command {
+    spec: &CommandSpec {
+        data: &pairs(CurveKind::ElevationHistory),
+        owner: Owner::Ours,
+        ..curve(
+            "S_HISTORY",
+            "waves: time and elevation at X = Y = 0, at even steps",
+            "&DATA CURVES\nS_HISTORY SWELL 0 0 2 1.2 4 1.9 6 1.2 8 0 10 -1.2 12 -1.9 14 -1.2\nEND",
+        )
+    },
+    edits: false,
+    run: |job, call| define(job, call, CurveKind::ElevationHistory),
 };
 /// LT_MULTIPLIER within `&DATA CURVES`.
 pub static LT_MULTIPLIER: Command = Command {

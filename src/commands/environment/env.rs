@@ -145,6 +145,8 @@ const OPTIONS: &[OptionSpec] = &[
     probability::PROBABILITY,
     SEA_OPTION,
     A_SEA_OPTION,
+    sea_options::WAVES,
+    sea_options::S_HISTORY,
     SP_TYPE_OPTION,
     SPREAD_OPTION,
     sea_options::COMPONENTS,
@@ -210,7 +212,9 @@ static ENV_SPEC: CommandSpec = CommandSpec {
              does: the crest there is the sum of the amplitudes, which &STATUS SEA_SPECTRUM reports; let TB be outside the run unless \
              it is wanted. A regular wave has its crest at X = Y = 0 at TB, or at 0 s. Of -SEED, -T_REINFORCE and -PHASES the last one \
              holds. -PHASES gives the phase of each component, in the order of &STATUS SEA_SPECTRUM with the added sea last, of \
-             zeta = sum a cos(k x - w t + phase), x along its travel. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
+             zeta = sum a cos(k x - w t + phase), x along its travel. -WAVES gives waves one by one, -S_HISTORY those of an elevation \
+             over time at X = Y = 0: the waves of its Fourier transform, whose sum passes through every value less their mean, and which repeat with the length of the \
+             history. Both add to -SEA, and none of -PHASES, -SEED and -T_REINFORCE is theirs. -STRETCHING is what linear waves do above the mean level: LINEAR goes straight on from it, WHEELER takes the \
              actual surface for the mean level, DELTA is between the two (Rodenbusch and Forristall 1986: 0.3, over half the \
              significant height), EXPONENTIAL uses the profile itself also above the water, as AQWATM does; with the others \
              nothing moves above the actual surface. STOKES is Fenton's theory of order -STOKES, without a mean current; neither it \
@@ -361,7 +365,7 @@ pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<
     }
     ambient_options::apply(job, env, given)?;
     wind_options::apply(job, env, given)?;
-    sea_options::apply(env, given)
+    sea_options::apply(job, env, given)
 }
 
 /// The curve that the first value names, with its number where the option has one.

@@ -1,17 +1,47 @@
 //! The options of `&ENV` that make wave components of its seas.
 
+use crate::commands::Job;
 use crate::commands::environment::env;
+use std::f64::consts::TAU;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
-use windlass_base::values::{Args, Given};
+use windlass_base::values::{Args, Given, Group};
 use windlass_language::select::Owner;
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
 use windlass_model::options::PHASES;
-use windlass_model::{Components, Division, Environment, Phasing, Stretching};
+use windlass_model::{Components, CurveKind, Division, ElevationHistory, Environment, GivenWave, Phasing, Stretching};
 
 /// The options of which the last one holds.
 const PHASINGS: [OptionSpec; 3] = [env::T_REINFORCE, SEED, PHASES];
+
+/// -WAVES.
+pub(crate) const WAVES: OptionSpec = OptionSpec::new(
+    "-WAVES",
+    &[
+        env::number("T", Dim::Time, "period").positive(),
+        env::number("A", Dim::Length, "amplitude").not_negative(),
+        env::number("PHASE", Dim::Angle, "phase: zeta = A cos(k x - w t + PHASE), x along its travel"),
+        env::number("DIR", Dim::Angle, "direction it comes from"),
+    ],
+    "waves one by one, added to -SEA",
+)
+.repeating(4)
+.default("none")
+.owner(Owner::Ours);
+
+/// -S_HISTORY.
+pub(crate) const S_HISTORY: OptionSpec = OptionSpec::new(
+    "-S_HISTORY",
+    &[
+        env::curve("S_HISTORY curve"),
+        env::number("DIR", Dim::Angle, "direction its waves come from"),
+        env::number("HIGH", Dim::Frequency, "highest frequency of its waves").or("none").positive(),
+    ],
+    "waves by their elevation over time at X = Y = 0, added to -SEA",
+)
+.default("none")
+.owner(Owner::Ours);
 
 /// -COMPONENTS.
 pub(crate) const COMPONENTS: OptionSpec = OptionSpec::new(
@@ -55,10 +85,19 @@ pub(crate) const STOKES: OptionSpec = OptionSpec::new(
 .owner(Owner::Ours);
 
 /// Takes one of these options, or one of MOSES's on the components.
-pub(crate) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
+pub(crate) fn apply(job: &Job, env: &mut Environment, given: &Given) -> Outcome<()> {
     let whole = || given.first_integer().and_then(|n| u64::try_from(n).ok());
     match given {
         _ if given.is(&COMPONENTS) => env.components = Some(components(given)?),
+        _ if given.is(&WAVES) => env.waves = given.groups().map(|group| wave(&group)).collect(),
+        _ if given.is(&S_HISTORY) => {
+            env::known_curve(job, given.values.first(), given, CurveKind::ElevationHistory)?;
+            env.elevation = Some(ElevationHistory {
+                curve: env::formula(given, None),
+                direction: given.number(const { S_HISTORY.number("DIR") }).unwrap_or(0.0),
+                highest: given.number(const { S_HISTORY.number("HIGH") }),
+            });
+        }
         _ if given.is(&env::S_PERIOD) => env.sea_periods = given.numbers(),
         _ if given.is(&PHASES) => env.sea_phases = given.numbers(),
         _ if given.is(&SEED) => env.phasing = whole().map(Phasing::Seeded),
@@ -78,6 +117,13 @@ pub(crate) fn apply(env: &mut Environment, given: &Given) -> Outcome<()> {
         }
     }
     Ok(())
+}
+
+/// One wave of -WAVES.
+fn wave(group: &Group<'_>) -> GivenWave {
+    let [period, amplitude, phase, direction] =
+        group.numbers_or_zero(const { WAVES.numbers(["T", "A", "PHASE", "DIR"]) });
+    GivenWave { frequency: TAU / period, amplitude, phase, direction }
 }
 
 /// Refuses two ways to make phases in one record.

@@ -12,7 +12,7 @@ use windlass_base::values::Noun;
 use windlass_language::name as rule;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Body, Junction, Model, Part, Point, Weight};
+use windlass_model::{Body, Junction, LoadKind, Lump, Model, Part, PartLoad, Point, Weight};
 
 /// JUNCTION.
 pub static JUNCTION: Command = Command { spec: &SPEC, edits: false, run };
@@ -34,6 +34,29 @@ const DISPLACEMENT: OptionSpec = OptionSpec::new(
 )
 .default("0");
 
+const DRAG: OptionSpec = OptionSpec::new(
+    "-DRAG",
+    &[number("CDA", Dim::Area, "drag coefficient times area, alike in all directions").not_negative()],
+    "drag of the water that moves past it",
+)
+.default("none");
+const ADDED_MASS: OptionSpec = OptionSpec::new(
+    "-AMASS",
+    &[number("CA", Dim::None, "coefficient, on the mass of water of -DISPLACEMENT").not_negative()],
+    "added mass",
+)
+.default("none");
+const FORCE: OptionSpec = OptionSpec::new(
+    "-FORCE",
+    &[
+        number("FX", Dim::Force, "along global x"),
+        number("FY", Dim::Force, "along global y"),
+        number("FZ", Dim::Force, "upward"),
+    ],
+    "a constant force on it",
+)
+.default("none");
+
 static SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: &[&menu::INMODEL, &menu::MEDIT],
@@ -43,12 +66,13 @@ static SPEC: CommandSpec = CommandSpec {
         number("Y", Dim::Length, "global Y").or("0"),
         number("Z", Dim::Length, "global Z, negative below the surface").or("0"),
     ],
-    options: &[WEIGHT, DISPLACEMENT],
+    options: &[WEIGHT, DISPLACEMENT, DRAG, ADDED_MASS, FORCE],
     detail: "A point with three degrees of freedom that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
              lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
              body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
              its NAME. The sea bottom carries it within 10 mm of the depth of &ENV, without friction. The sphere of \
-             -DISPLACEMENT floats with as much of it under water as it needs.",
+             -DISPLACEMENT floats with as much of it under water as it needs. -DRAG and -AMASS act as those of #LUMP: in current, on its own motion, and \
+             in waves in TDOM.",
     example: "&ENV -DEPTH 100\nMEDIT\n*A 0 0 10\nJUNCTION KNOT 60 0 -60 -WEIGHT 5\n~UP H_CAT 3 EXACT -LEN 95\n~LEG B_CAT 3 EXACT -LEN 250\n\
               CONNECTOR UP ~UP *A *KNOT\nCONNECTOR L1 -ANC 30 230 ~LEG *KNOT\nCONNECTOR L2 -ANC -30 230 ~LEG *KNOT\nEND\n&EQUI\n&STATUS F_CONNECTOR",
     ..CommandSpec::new("JUNCTION", "a point in the sea where lines meet")
@@ -61,8 +85,24 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let at = args.numbers_or_zero(const { SPEC.numbers(["X", "Y", "Z"]) });
     let displacement = args.option_number(&DISPLACEMENT).unwrap_or(0.0);
     let weight = args.option_number(&WEIGHT).unwrap_or(0.0);
+    let [area, added] = [DRAG, ADDED_MASS].map(|option| args.option_number(&option).unwrap_or(0.0));
+    if let Some(given) = args.option(&ADDED_MASS).filter(|_| displacement == 0.0 && added > 0.0) {
+        let text = "-AMASS without -DISPLACEMENT is none: the added mass is a share of the displaced water";
+        return Err(Diagnostic::error(text, given.span));
+    }
     free(&job.model, name, "junction", args.position(NAME))?;
     insert(&mut job.model, name, at, [weight, displacement], args.position(NAME));
+    if area > 0.0 || added > 0.0 {
+        let volume = displacement / (job.model.defaults.water_density * job.model.defaults.gravity);
+        let (drag_areas, added) = ([area; 3], [added; 3]);
+        let lump = Lump { volume, drag_areas, added, ..Lump::default() };
+        job.model.loads.push(PartLoad::at_origin(name, LoadKind::Lump(lump), args.span));
+    }
+    if let Some(given) = args.option(&FORCE) {
+        let force = given.numbers_or_zero(const { FORCE.numbers(["FX", "FY", "FZ"]) });
+        let load = PartLoad::at_origin(name, LoadKind::Force(force), given.span);
+        job.model.loads.push(load);
+    }
     job.note_name(name, args.position(NAME));
     Ok(Effect::Done)
 }

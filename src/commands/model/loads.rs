@@ -1,4 +1,4 @@
-//! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices.
+//! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices; `#LUMP`, `#FORCE`.
 //!
 //! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
 //! order of the values of the others is ours: no source gives it.
@@ -20,7 +20,7 @@ use windlass_base::values::{Args, Given};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionEffect, OptionSpec, ValueSpec};
-use windlass_model::{Fluid, GROUND, LoadKind, Model, PartLoad, SolveKind, UnmodelledEffect, find};
+use windlass_model::{Fluid, GROUND, LoadKind, Lump, Model, PartLoad, SolveKind, UnmodelledEffect, find};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };
@@ -43,6 +43,10 @@ pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: adde
 pub static TANAKA: Command = Command { spec: &TANAKA_SPEC, edits: false, run: tanaka };
 /// #TANKER.
 pub static TANKER: Command = Command { spec: &TANKER_SPEC, edits: true, run: tanker };
+/// #LUMP.
+pub static LUMP: Command = Command { spec: &LUMP_SPEC, edits: false, run: lump };
+/// #FORCE.
+pub static FORCE: Command = Command { spec: &FORCE_SPEC, edits: false, run: force };
 /// #BUOY.
 pub static BUOY: Command = Command { spec: &BUOY_SPEC, edits: false, run: buoy };
 
@@ -83,6 +87,8 @@ const fn six(force: Dim, moment: Dim) -> [ValueSpec; 6] {
         number("MZ", moment, "yaw"),
     ]
 }
+/// An area times the third power of a length.
+const FIFTH_POWER: Dim = derived_dimension(0, 5, 0);
 /// The names of the six.
 const SIX_NAMES: [&str; 6] = ["FX", "FY", "FZ", "MX", "MY", "MZ"];
 const STREAM: [ValueSpec; 6] = six(derived_dimension(1, -2, 2), derived_dimension(1, -1, 2));
@@ -357,6 +363,68 @@ static BUOY_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#BUOY", "buoyancy at a point")
 };
 
+const LUMP_DRAG: OptionSpec = OptionSpec::ours(
+    "-DRAG",
+    &[
+        number("AX", Dim::Area, "drag coefficient times area along x").not_negative(),
+        number("AY", Dim::Area, "along y").not_negative().or("AX"),
+        number("AZ", Dim::Area, "along z").not_negative().or("AX"),
+    ],
+    "drag of the water that moves past it",
+)
+.default("none");
+const LUMP_ROTARY_DRAG: OptionSpec = OptionSpec::ours(
+    "-R_DRAG",
+    &[
+        number("RX", FIFTH_POWER, "about x").not_negative(),
+        number("RY", FIFTH_POWER, "about y").not_negative(),
+        number("RZ", FIFTH_POWER, "about z").not_negative(),
+    ],
+    "drag against turning, over half the density and the square of the rate",
+)
+.default("none");
+const LUMP_ADDED_MASS: OptionSpec = OptionSpec::ours(
+    "-AMASS",
+    &[
+        number("CX", Dim::None, "coefficient along x, on the mass of water of the volume").not_negative(),
+        number("CY", Dim::None, "along y").not_negative().or("CX"),
+        number("CZ", Dim::None, "along z").not_negative().or("CX"),
+    ],
+    "added mass",
+)
+.default("none");
+const LUMP_CONSTANT: OptionSpec =
+    OptionSpec::ours("-CONSTANT", &[], "all of it acts wherever the point is").default("the share that is under water");
+
+static LUMP_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: MENUS,
+    data: &[POINT, number("V", Dim::Volume, "volume; its mass is that of #WEIGHT").not_negative()],
+    options: &[LUMP_DRAG, LUMP_ROTARY_DRAG, LUMP_ADDED_MASS, LUMP_CONSTANT, CATEGORY],
+    detail: "A small body, as a buoy or a clump, by Morison's formula at one point: buoyancy rho g V, drag 1/2 rho A |w| w along each axis of the part with w the \
+             water past the point, 1/2 rho R |p| p against the rate p of turning about each axis, added mass rho C V, and in waves rho V (1 + C) times the \
+             acceleration of the water. What acts is the share of a sphere of the volume that is under the mean level; with -CONSTANT always all of it, as of \
+             bodies of constant volume in MoorDyn. The added mass is always whole. In waves it acts in TDOM alone.",
+    example: "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BUOY\n*CG 0 0 -10\n#WEIGHT *CG 30 1 1 1\n#LUMP *CG 5 -DRAG 2 -AMASS 0.5\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#LUMP", "small body in the water, at a point")
+};
+
+static FORCE_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: MENUS,
+    data: &[
+        POINT,
+        number("FX", Dim::Force, "along global x"),
+        number("FY", Dim::Force, "along global y").or("0"),
+        number("FZ", Dim::Force, "upward").or("0"),
+    ],
+    options: &[CATEGORY],
+    detail: "A force that neither time nor the motion of the body changes, on the global axes; its point moves and turns with the body. It has no \
+             mass. In runs it acts from the first instant, in category APPLIED. Of &APPLY the multipliers of load groups act on it.",
+    example: "MEDIT\n&DESCRIBE BODY TBRG\n*TOW 0 0 4\n#FORCE *TOW -50\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#FORCE", "constant force at a point")
+};
+
 /// The first datum of every load.
 const PLACE: DatumKey<str> = AREA_SPEC.word("*PT");
 
@@ -407,7 +475,10 @@ fn keep(job: &mut Job, args: &Args, (part, at): (String, Position), kind: LoadKi
         LoadKind::Plate { .. } if has_shape_coefficients(args) => plate_drag(job, args),
         _ => 1.0,
     };
-    let shape_coefficients = SHAPE_COEFFICIENTS.map(|option| args.number_if_declared(&option).unwrap_or(usual));
+    // -DRAG of #LUMP is its areas
+    let is_shape = matches!(kind, LoadKind::Area(_) | LoadKind::Plate { .. });
+    let given = |option: &OptionSpec| args.number_if_declared(option).filter(|_| is_shape);
+    let shape_coefficients = SHAPE_COEFFICIENTS.map(|option| given(&option).unwrap_or(usual));
     job.model.loads.push(PartLoad { part, at, fluid, kind, shape_coefficients, category, group, span: args.span });
     Ok(Effect::Done)
 }
@@ -432,6 +503,35 @@ fn buoy(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let force = args.number(const { BUOY_SPEC.number("B") }).unwrap_or_default();
     let size = args.numbers_or_zero(const { BUOY_SPEC.numbers(["DX", "DY", "DZ"]) });
     keep(job, args, position(job, args)?, LoadKind::Buoyancy { force, size })
+}
+
+fn lump(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let volume = args.number(const { LUMP_SPEC.number("V") }).unwrap_or_default();
+    let drag_areas = args.option(&LUMP_DRAG).map_or([0.0; 3], |given| {
+        first_for_absent(const { LUMP_DRAG.numbers(["AX", "AY", "AZ"]) }.map(|key| given.number(key)))
+    });
+    let added = args.option(&LUMP_ADDED_MASS).map_or([0.0; 3], |given| {
+        first_for_absent(const { LUMP_ADDED_MASS.numbers(["CX", "CY", "CZ"]) }.map(|key| given.number(key)))
+    });
+    let rotary_drag = args
+        .option(&LUMP_ROTARY_DRAG)
+        .map_or([0.0; 3], |given| given.numbers_or_zero(const { LUMP_ROTARY_DRAG.numbers(["RX", "RY", "RZ"]) }));
+    let is_constant = args.has(&LUMP_CONSTANT);
+    let lump = Lump { volume, is_buoyant: true, is_constant, drag_areas, rotary_drag, added };
+    keep(job, args, position(job, args)?, LoadKind::Lump(lump))
+}
+
+/// Three values, the later ones the first where they are absent.
+fn first_for_absent([x, y, z]: [Option<f64>; 3]) -> [f64; 3] {
+    let first = x.unwrap_or(0.0);
+    [first, y.unwrap_or(first), z.unwrap_or(first)]
+}
+
+fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let components = args.numbers_or_zero(const { FORCE_SPEC.numbers(["FX", "FY", "FZ"]) });
+    keep(job, args, position(job, args)?, LoadKind::Force(components))
 }
 
 fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {

@@ -337,7 +337,7 @@ pub(super) fn force(job: &mut Job, call: &Call) -> Outcome<Effect> {
 fn sea(job: &Job, args: &Args) -> Outcome<Environment> {
     let mut env = job.model.environment.clone();
     if let Some(given) = args.option(&SEA_OPTION) {
-        env.added_sea = None;
+        env = env.without_sea();
         env::apply(job, &mut env, given)?;
     }
     for given in [A_SEA_OPTION, SPREAD_OPTION, SP_TYPE_OPTION].iter().filter_map(|option| args.option(option)) {

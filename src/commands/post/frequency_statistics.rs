@@ -172,7 +172,7 @@ fn respond_in(job: &mut Job, args: &Args, name: Option<(&str, Span)>) -> Outcome
         },
     };
     if args.has(&SEA_OPTION) {
-        env.added_sea = None;
+        env = env.without_sea();
     }
     for given in &changes {
         env::apply(job, &mut env, given)?;

@@ -87,13 +87,22 @@ fn environment(job: &Job, env: &Environment) -> Table {
             table = facts_of_sea(table, name, env, sea);
         }
     }
-    if env.sea.is_some() || env.added_sea.is_some() {
+    if !env.waves.is_empty() {
+        table = table.fact("Waves Given", env.waves.len(), Dim::None);
+    }
+    if let Some(history) = &env.elevation {
+        table = table
+            .fact("Elevation over Time", history.curve.kind.as_str(), Dim::None)
+            .fact("   comes from", history.direction, Dim::Angle)
+            .fact("   travels toward", opposite(history.direction), Dim::Angle);
+    }
+    if env.has_waves() || env.sea.is_some() || env.added_sea.is_some() {
         table = table.fact("Spreading Exponent", env.spreading.unwrap_or(200.0), Dim::None);
         match windlass_hydro::sea::Sea::new(model, env) {
             Ok(Some(sea)) => {
                 table = table.fact("Wave Components", sea.components.len(), Dim::None).fact(
                     "Phases of Waves",
-                    phasing(&sea),
+                    if sea.trains.iter().all(|train| train.is_given) { "as given".into() } else { phasing(&sea) },
                     Dim::None,
                 );
             }

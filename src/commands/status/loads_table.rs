@@ -33,7 +33,8 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .text("Acts in", |load| match (&load.kind, load.fluid) {
             (LoadKind::Drift { .. }, _) => "waves",
             (LoadKind::Buoyancy { .. } | LoadKind::EddyDamping(_), _) => "water",
-            (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_), _) => "water",
+            (LoadKind::Force(_), _) => "any",
+            (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_) | LoadKind::Lump(_), _) => "water",
             (_, Fluid::ByHeight) => "by height",
             (_, Fluid::Air) => "air",
             (_, Fluid::Water) => "water",
@@ -41,6 +42,7 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .columns("Point in Part", ["X", "Y", "Z"], Dim::Length, Digits::Usual, |load| load.at)
         .columns("Area x Coefficient", ["X", "Y", "Z"], Dim::Area, Digits::Usual, |load| match &load.kind {
             LoadKind::Area(areas) => areas.map(Some),
+            LoadKind::Lump(lump) => lump.drag_areas.map(Some),
             LoadKind::Plate { area, normal } => normal.map(|n| Some(area * n.abs())),
             _ => [None; 3],
         })
@@ -98,7 +100,7 @@ fn sums(model: &Model, body: &Body) -> Result<Vec<(Category, Six)>, ClassError> 
     let floating = Floating::at_rest(model, body)?;
     let pose = Pose::from_place(&body.position);
     let mut list = Vec::new();
-    for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift] {
+    for category in [Category::Wind, Category::ViscousDrag, Category::WaveDrift, Category::Applied] {
         let mut mine = floating.loads.iter().filter(|l| l.category() == category).peekable();
         if mine.peek().is_some() {
             let sum = mine.try_fold(Six::zeros(), |sum, load| load.mean_load(&pose).map(|l| sum + l.wrench))?;

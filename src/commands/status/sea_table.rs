@@ -71,7 +71,7 @@ pub(crate) fn sea(job: &Job, env: &Environment, at: Span) -> Outcome<Option<Sea>
 
 /// The title of a table of an environment.
 pub(crate) fn title(what: &str, env: &Environment, train: Option<&EnvironmentSea>) -> String {
-    let added = if train.is_some_and(|t| t.components.start > 0) { ", Added Sea" } else { "" };
+    let added = if train.is_some_and(|t| t.components.start > 0 && !t.is_given) { ", Added Sea" } else { "" };
     let name = if env.name.is_empty() { String::new() } else { format!(" of {}", env.name) };
     format!("{what}{name}{added}")
 }
@@ -106,6 +106,7 @@ fn components(env: &Environment, sea: &Sea, train: &EnvironmentSea) -> Table {
             .fact("Length", TAU / wave.number, Dim::Length);
     }
     let division = match env.components.map_or(Division::EqualEnergy, |c| c.division) {
+        _ if train.is_given => "as given",
         _ if train.spectrum.is_none() => "regular wave",
         _ if !env.sea_periods.is_empty() => "about the periods of -S_PERIOD",
         Division::EqualEnergy => "of equal energy",
@@ -115,7 +116,7 @@ fn components(env: &Environment, sea: &Sea, train: &EnvironmentSea) -> Table {
     table = table
         .fact("Components", format!("{} {division}", waves.len()), Dim::None)
         .fact("Sum of Amplitudes", highest, Dim::Length)
-        .fact("Phases", phasing(sea), Dim::None)
+        .fact("Phases", if train.is_given { "as given".into() } else { phasing(sea) }, Dim::None)
         .fact("Ramp", sea.ramp, Dim::Time)
         .fact("Above the Mean Level", stretching_name(sea), Dim::None);
     let rows: Vec<_> = waves

@@ -3,7 +3,7 @@
 use super::super::Load;
 use super::super::hull::TubeHull;
 use super::super::steady::{Medium, Steady};
-use super::super::stream::{LoadPlace, StreamWrench};
+use super::super::stream::{Immersion, LoadPlace, StreamWrench};
 use nalgebra::{Matrix3, Matrix6x3, RowVector6, Vector3};
 use std::f64::consts::PI;
 use windlass_base::pose::{Pose, Six};
@@ -186,7 +186,11 @@ impl MemberLength {
         let level = steady.around.tide;
         for station in self.ranges().flat_map(|r| standing.parts(r, kinks)).flat_map(|r| standing.stations(r, level)) {
             let arm = standing.arm(station.at);
-            let position = LoadPlace { at: self.from + self.axis * station.at, medium: Medium::Water, shared: false };
+            let position = LoadPlace {
+                at: self.from + self.axis * station.at,
+                medium: Medium::Water,
+                immersion: Immersion::Whole,
+            };
             let stream = steady.velocity(Medium::Water, pose.origin.z + arm.z);
             let load = position.load_in(steady, pose, stream, |flow| {
                 let (force, by_flow) = drag((self.across, self.along), (&self.axis, &self.first), &flow);

@@ -8,6 +8,7 @@ pub mod components;
 mod deep_places;
 pub mod density;
 pub mod dispersion;
+pub mod given;
 mod grid;
 pub mod phases;
 pub mod simd_math;

@@ -2,6 +2,7 @@
 
 use super::components::{SpectrumBand, bands, bands_about};
 use super::density::Spectrum;
+use super::given::given_trains;
 use super::spectra::ShapeParameter;
 use super::stokes::{Stokes, breaks};
 use super::{Component, Sea, Water, dispersion, phases, spreading};
@@ -31,6 +32,8 @@ pub struct EnvironmentSea {
     pub spectrum: Option<Spectrum>,
     /// The bands its components stand for; none for a regular wave.
     pub bands: Vec<SpectrumBand>,
+    /// Whether its waves were given one by one, or as an elevation over time.
+    pub is_given: bool,
     /// Its components in those of the sea.
     pub components: std::ops::Range<usize>,
 }
@@ -91,13 +94,39 @@ impl Sea {
                 shape,
                 spectrum,
                 bands,
+                is_given: false,
                 components,
+            });
+        }
+        if !components.is_empty() {
+            phases::one_each(env, &components)?;
+        }
+        for train in given_trains(model, env)? {
+            if let Some(sea) = stokes.as_ref().and(env.sea.as_ref()) {
+                return Err(ClassError::new("a STOKES wave cannot be added to other waves: it is not linear")
+                    .with_span(sea.position(0))
+                    .help("REGULAR is the linear wave"));
+            }
+            let first = components.len();
+            for wave in &train.waves {
+                let number = dispersion::wave_number(wave.frequency, water.depth, water.gravity)?;
+                let (cos, sin) = unit_vector(wave.direction);
+                let (frequency, amplitude, phase) = (wave.frequency, wave.amplitude, wave.phase);
+                components.push(Component { frequency, number, amplitude, toward: [-cos, -sin], phase });
+            }
+            trains.push(EnvironmentSea {
+                name: train.name,
+                direction: train.direction,
+                shape: Vec::new(),
+                spectrum: None,
+                bands: Vec::new(),
+                is_given: true,
+                components: first..components.len(),
             });
         }
         if components.is_empty() {
             return Ok(None);
         }
-        phases::one_each(env, &components)?;
         let ramp = env.ramp.unwrap_or(model.defaults.ramp);
         let random = env.sea_phases.is_empty() && trains.iter().any(|t| t.spectrum.is_some());
         let (seed, reinforcement) = match phasing {

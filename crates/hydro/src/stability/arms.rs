@@ -152,7 +152,7 @@ fn downwind(attitude: &Attitude, side: f64) -> Vector3<f64> {
 
 /// An environment without sea, wind and current.
 fn calm(environment: &Environment) -> Environment {
-    Environment { sea: None, added_sea: None, current: None, ..environment.clone() }
+    Environment { current: None, ..environment.clone().without_sea() }
 }
 
 /// The loads of a category on a body in an environment.

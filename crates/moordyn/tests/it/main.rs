@@ -4,6 +4,8 @@
 
 mod bad_input;
 mod decks;
+mod files;
+mod map;
 
 /// A deck with one line, in the columns of version 2.
 pub(crate) const SINGLE_LINE: &str = "\

@@ -15,7 +15,8 @@ use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
 use windlass_model::{
-    Amplitudes, AttachedDatabase, ClassError, Database, DriftMethod, DriftTable, Model, Piece, TimeStep, WaveAction,
+    Amplitudes, AttachedDatabase, ClassError, Database, DriftMethod, DriftTable, LoadKind, Model, Part, PartLoad,
+    Piece, TimeStep, WaveAction,
 };
 
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
@@ -221,7 +222,12 @@ impl LinearSystem {
             if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
                 let body = model.bodies.get(&node.key);
                 let feels = |piece: &Piece| piece.member.is_some() || piece.waves == WaveAction::Pressure;
-                let feels = body.is_some_and(|b| model.parts_of(b).any(|part| part.pieces.iter().any(feels)));
+                let lumps = |part: &Part| {
+                    let own = |load: &&PartLoad| Model::key(&load.part) == Model::key(&part.name);
+                    model.loads.iter().filter(own).any(|load| matches!(load.kind, LoadKind::Lump(_)))
+                };
+                let feels = |part: &Part| part.pieces.iter().any(feels) || lumps(part);
+                let feels = body.is_some_and(|b| model.parts_of(b).any(feels));
                 if feels { &mut in_time } else { &mut still }.push(node.name.clone());
             }
         }
@@ -233,7 +239,8 @@ impl LinearSystem {
             self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")).into());
         }
         if !in_time.is_empty() {
-            let text = format!("waves act on members and hulls (-DIFTYPE FK) of {} in TDOM alone", in_time.join(", "));
+            let text =
+                format!("waves act on members, lumps and hulls (-DIFTYPE FK) of {} in TDOM alone", in_time.join(", "));
             self.notes.push(text.into());
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
