@@ -6,12 +6,13 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "MOSES-FLEX",
     "MOSES-REF",
     "AQWA-CONN",
     "AQWA-TETHER",
     "AQWA-REF",
+    "MAP-PP",
     "MOORDYN-2",
     "API-RP-2SK",
     "API-RP-2SM",

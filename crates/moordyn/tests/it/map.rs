@@ -82,7 +82,7 @@ fn wrong_words_of_a_file_of_map_are_errors_at_the_word() {
         ("repeat 90", "repeat x", "x", "not a number"),
         ("1 steel 450", "1 steal 450", "steal", "did you mean Steel"),
         ("1 steel 450", "1 steel 0", "0", "must be greater than 0"),
-        ("2 3 omit", "2 9 omit", "9", "the last point is 6"),
+        ("2 3 omit", "2 9 omit", "9", "the last point is 3"),
         ("Option\n(-)\n", "repeat 90\n(-)\n", "repeat", "passes over the two lines"),
     ] {
         let (found, text) = said(from, to, true);
