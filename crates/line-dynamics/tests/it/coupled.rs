@@ -1,10 +1,8 @@
 //! Lines whose fairleads a program moves: against MoorDyn, a taut line's stiffness, and the weight of what hangs.
 
-use crate::moordyn::{driven, reference};
+use crate::moordyn::{self, driven, reference};
 use nalgebra::Vector3;
-use windlass_line_dynamics::{
-    CoupledLine, CoupledLines, PlaneBottom, Rod, RodSegment, SeabedLaw, Surroundings, UniformFluid,
-};
+use windlass_line_dynamics::{CoupledLine, CoupledLines, Rod, RodSegment, Surroundings, UniformFluid};
 
 fn vacuum() -> Surroundings {
     Surroundings { water: UniformFluid::vacuum(), bottom: None, gravity: 9.81 }
@@ -19,19 +17,9 @@ fn taut() -> CoupledLines {
 
 #[test]
 fn driven_chain_follows_moordyn_by_positions_and_velocities_alone() {
-    let chain = RodSegment {
-        axial_damping: 1e6,
-        drag_normal: 1.333,
-        drag_tangential: 0.639,
-        added_normal: 1.0,
-        added_tangential: 0.5,
-        ..RodSegment::line(900.0, 100, 199.0, 8.54e8, 0.18)
-    };
-    let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
-    let bottom =
-        (PlaneBottom { height: -300.0, slope: [0.0, 0.0] }, SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) });
-    let around = Surroundings { water: UniformFluid::still_water(1025.0), bottom: Some(bottom), gravity: 9.80665 };
-    let (anchor, fairlead) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
+    let around = Surroundings { water: moordyn::water(), bottom: Some(moordyn::bottom()), gravity: moordyn::GRAVITY };
+    let [anchor, fairlead] = moordyn::ENDS;
+    let rod = moordyn::rod(100);
     let mut lines = CoupledLines::new(vec![CoupledLine { rod, anchor, fairlead }], around, 0.1).unwrap();
     let (rows, range) = reference();
     let mut worst: f64 = 0.0;

@@ -23,11 +23,13 @@ pub fn driven(t: f64) -> RodEndMotion {
     }
 }
 
-/// Gives the chain at rest in its world to `act`: its rod, solver and state, the end at the anchor, and the forces at rest.
-pub fn chain<T>(
-    (elements, settings): (usize, RodSettings),
-    act: impl FnOnce(&Rod, &mut RodSolver, &mut RodState, &LineEnvironment, RodEnd, RodEndForces) -> T,
-) -> T {
+/// Acceleration of gravity (m/s2).
+pub const GRAVITY: f64 = 9.80665;
+/// Anchor and fairlead at rest (m).
+pub const ENDS: [Vector3<f64>; 2] = [Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0)];
+
+/// The chain in so many elements.
+pub fn rod(elements: usize) -> Rod {
     let chain = RodSegment {
         axial_damping: 1e6,
         drag_normal: 1.333,
@@ -36,12 +38,28 @@ pub fn chain<T>(
         added_tangential: 0.5,
         ..RodSegment::line(900.0, elements, 199.0, 8.54e8, 0.18)
     };
-    let rod = Rod::new("chain", vec![chain], vec![]).unwrap();
-    let fluid = UniformFluid::still_water(1025.0);
-    let bottom = PlaneBottom { height: -300.0, slope: [0.0, 0.0] };
-    let ground = SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) };
-    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&fluid, 9.80665) };
-    let (a, b) = (Vector3::new(-800.0, 0.0, -300.0), Vector3::new(0.0, 0.0, -10.0));
+    Rod::new("chain", vec![chain], vec![]).unwrap()
+}
+
+/// The water about it.
+pub fn water() -> UniformFluid {
+    UniformFluid::still_water(1025.0)
+}
+
+/// The bottom below it.
+pub fn bottom() -> (PlaneBottom, SeabedLaw) {
+    (PlaneBottom { height: -300.0, slope: [0.0, 0.0] }, SeabedLaw { damping: 3e5, ..SeabedLaw::elastic(3e6) })
+}
+
+/// Gives the chain at rest in its world to `act`: its rod, solver and state, the end at the anchor, and the forces at rest.
+pub fn chain<T>(
+    (elements, settings): (usize, RodSettings),
+    act: impl FnOnce(&Rod, &mut RodSolver, &mut RodState, &LineEnvironment, RodEnd, RodEndForces) -> T,
+) -> T {
+    let rod = rod(elements);
+    let (water, (bottom, ground)) = (water(), bottom());
+    let world = LineEnvironment { bottom: Some((&bottom, ground)), ..LineEnvironment::new(&water, GRAVITY) };
+    let [a, b] = ENDS;
     let mut state = RodState::along_points(&rod, &[a, Vector3::new(-350.0, 0.0, -300.0), b]).unwrap();
     let mut solver = RodSolver::new(&rod, settings);
     let rest = solver.statics(&rod, &mut state, &world, [RodEnd::pin(a), RodEnd::pin(b)]).unwrap();
