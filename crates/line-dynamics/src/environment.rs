@@ -100,6 +100,11 @@ impl FluidField for UniformFluid {
 pub trait SeabedShape {
     /// Height (m, global z) and its slope toward x and y at a place.
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]);
+
+    /// Height (m, global z) of a bottom that is level everywhere; None of any other.
+    fn level(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// A plane bottom: height at the origin and slope toward x and y.
@@ -114,6 +119,10 @@ pub struct PlaneBottom {
 impl SeabedShape for PlaneBottom {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
         (self.height + self.slope[0] * x + self.slope[1] * y, self.slope)
+    }
+
+    fn level(&self) -> Option<f64> {
+        (self.slope == [0.0; 2]).then_some(self.height)
     }
 }
 

@@ -30,6 +30,8 @@ struct LocalFluid<'a> {
 struct LocalBottom<'a> {
     bottom: &'a dyn SeabedShape,
     origin: Vector3<f64>,
+    /// Its height where it is level everywhere.
+    level: Option<f64>,
 }
 
 impl<'a> LocalEnvironment<'a> {
@@ -39,7 +41,11 @@ impl<'a> LocalEnvironment<'a> {
             world,
             origin,
             fluid: LocalFluid { fluid: world.fluid, origin, room: RefCell::new(room) },
-            bottom: world.bottom.map(|(bottom, _)| LocalBottom { bottom, origin }),
+            bottom: world.bottom.map(|(bottom, _)| LocalBottom {
+                bottom,
+                origin,
+                level: bottom.level().map(|height| height - origin.z),
+            }),
             supports: world.supports.iter().map(|s| Support { position: s.position - origin, ..*s }).collect(),
         }
     }
@@ -95,7 +101,14 @@ impl FluidField for LocalFluid<'_> {
 
 impl SeabedShape for LocalBottom<'_> {
     fn height(&self, x: f64, y: f64) -> (f64, [f64; 2]) {
+        if let Some(level) = self.level {
+            return (level, [0.0; 2]);
+        }
         let (height, slope) = self.bottom.height(x + self.origin.x, y + self.origin.y);
         (height - self.origin.z, slope)
+    }
+
+    fn level(&self) -> Option<f64> {
+        self.level
     }
 }

@@ -23,8 +23,12 @@ pub(super) fn add_nodal_loads<const TANGENT: bool, const W: usize, const H: usiz
     if let Some((bottom, ground)) = &world.bottom {
         // at rest its friction is another: see `statics_friction`
         let ground = if trial.is_static { &ground.smooth() } else { ground };
+        let level = bottom.level();
         for node in range.start..=range.end {
             let (x, v) = (&trial.x[node], &trial.v[node]);
+            if level.is_some_and(|height| x.z >= height) {
+                continue;
+            }
             if let Some(made) = contact(
                 *bottom,
                 ground,

@@ -76,6 +76,13 @@ impl SeabedShape for LineSeabed<'_> {
             None => self.charted.and_then(|a| a.bottom(x, y)).unwrap_or((self.flat, [0.0; 2])),
         }
     }
+
+    fn level(&self) -> Option<f64> {
+        match &self.plane {
+            Some(plane) => plane.level(),
+            None => self.charted.is_none().then_some(self.flat),
+        }
+    }
 }
 
 /// How the bottom answers a line of these segments.
