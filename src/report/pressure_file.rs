@@ -242,6 +242,8 @@ impl Writer {
 
     fn letters(&mut self, name: &str, dimensions: &[&str], values: Vec<u8>) -> Result<(), StoreError> {
         self.set.add_var_u8(name, dimensions).map_err(to_store_error)?;
+        // by this xarray, and Capytaine with it, takes letters for text
+        self.set.add_var_attr_string(name, "_Encoding", "utf-8").map_err(to_store_error)?;
         self.values.push((name.to_owned(), Values::Letters(values)));
         Ok(())
     }
