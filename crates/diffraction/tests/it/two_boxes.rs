@@ -11,13 +11,9 @@ fn floating_box(y: f64) -> DiffractionBody {
     box_of([14, 8, 7], y)
 }
 
-/// The same with so many panels along its length, width and height.
-fn box_of(counts: [usize; 3], y: f64) -> DiffractionBody {
-    let spread = |i: usize, n: usize| 0.5 * (1.0 - (PI * i as f64 / n as f64).cos());
-    let [nx, ny, nz] = counts;
-    let at = |i: usize, j: usize, k: usize| {
-        Vector3::new(2.0 * (spread(i, nx) - 0.5), y + spread(j, ny) - 0.5, -0.5 * spread(k, nz))
-    };
+/// Panels of the sides and the bottom of a box in so many along, across and down, by its corners of such numbers.
+fn box_panels([nx, ny, nz]: [usize; 3], corner: impl Fn([usize; 3]) -> Vector3<f64>) -> Vec<[Vector3<f64>; 4]> {
+    let at = |i: usize, j: usize, k: usize| corner([i, j, k]);
     let mut quads = Vec::new();
     for i in 0..nx {
         for k in 0..nz {
@@ -34,6 +30,17 @@ fn box_of(counts: [usize; 3], y: f64) -> DiffractionBody {
             quads.push([at(nx, j, k), at(nx, j, k + 1), at(nx, j + 1, k + 1), at(nx, j + 1, k)]);
         }
     }
+    quads
+}
+
+/// The same with so many panels along its length, width and height.
+fn box_of(counts: [usize; 3], y: f64) -> DiffractionBody {
+    let spread = |i: usize, n: usize| 0.5 * (1.0 - (PI * i as f64 / n as f64).cos());
+    let [nx, ny, nz] = counts;
+    let at = |[i, j, k]: [usize; 3]| {
+        Vector3::new(2.0 * (spread(i, nx) - 0.5), y + spread(j, ny) - 0.5, -0.5 * spread(k, nz))
+    };
+    let quads = box_panels(counts, at);
     let mesh = HullMesh::new(&quads, MirrorPlanes::default()).unwrap();
     for volume in mesh.volumes() {
         assert!((volume - 1.0).abs() < 1e-9, "{volume}");
@@ -79,28 +86,13 @@ fn two_floating_boxes_meet_capytaine_on_same_mesh() {
 
 /// A barge 40 long, 12 wide and 4 deep at (x, y), turned, of square panels, with or without a lid.
 fn barge(size: f64, [x, y, turn]: [f64; 3], has_lid: bool) -> DiffractionBody {
-    let [nx, ny, nz] = [40.0, 12.0, 4.0].map(|length: f64| (length / size).round() as usize);
+    let counts = [40.0, 12.0, 4.0].map(|length: f64| (length / size).round() as usize);
     let (sine, cosine) = turn.sin_cos();
-    let at = |i: usize, j: usize, k: usize| {
+    let at = |[i, j, k]: [usize; 3]| {
         let (along, across) = (-20.0 + size * i as f64, -6.0 + size * j as f64);
         Vector3::new(x + cosine * along - sine * across, y + sine * along + cosine * across, -size * k as f64)
     };
-    let mut quads = Vec::new();
-    for i in 0..nx {
-        for k in 0..nz {
-            quads.push([at(i, 0, k), at(i, 0, k + 1), at(i + 1, 0, k + 1), at(i + 1, 0, k)]);
-            quads.push([at(i, ny, k), at(i + 1, ny, k), at(i + 1, ny, k + 1), at(i, ny, k + 1)]);
-        }
-        for j in 0..ny {
-            quads.push([at(i, j, nz), at(i, j + 1, nz), at(i + 1, j + 1, nz), at(i + 1, j, nz)]);
-        }
-    }
-    for j in 0..ny {
-        for k in 0..nz {
-            quads.push([at(0, j, k), at(0, j + 1, k), at(0, j + 1, k + 1), at(0, j, k + 1)]);
-            quads.push([at(nx, j, k), at(nx, j, k + 1), at(nx, j + 1, k + 1), at(nx, j + 1, k)]);
-        }
-    }
+    let quads = box_panels(counts, at);
     let mesh = HullMesh::new(&quads, MirrorPlanes::default()).unwrap();
     let mesh = if has_lid { mesh.with_lid().unwrap() } else { mesh };
     DiffractionBody { mesh, origin: Vector3::new(x, y, 0.0) }
