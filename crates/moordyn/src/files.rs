@@ -101,7 +101,7 @@ fn at_most(row: &Row<'_>, most: usize, what: &str) -> Outcome<()> {
 /// Reads a seafloor: the numbers of x and of y, the x, the y, then rows of x, y and z.
 ///
 /// # Errors
-/// A word that is no number, places that do not grow, a point that is not of the grid, twice there or missing.
+/// A word that is not a number, places that do not grow, a point that is not of the grid, twice there or missing.
 pub fn seafloor(text: &str, source: SourceId) -> Outcome<Seafloor> {
     let list = rows(text, source, 0);
     let [sizes, columns, lines, points @ ..] = list.as_slice() else { return Err(empty("the seafloor file", source)) };
@@ -158,7 +158,7 @@ pub fn seafloor(text: &str, source: SourceId) -> Outcome<Seafloor> {
 /// Reads a current profile: three lines of heads, then rows of z and the velocity in x, y and z.
 ///
 /// # Errors
-/// A word that is no number, heights that neither grow nor fall, a velocity upward.
+/// A word that is not a number, heights that neither grow nor fall, a velocity upward.
 pub fn current_profile(text: &str, source: SourceId) -> Outcome<CurrentProfile> {
     let list = rows(text, source, HEAD_LINES);
     let mut found: Vec<(f64, [f64; 2], Span)> = Vec::new();
@@ -191,7 +191,7 @@ pub fn current_profile(text: &str, source: SourceId) -> Outcome<CurrentProfile> 
 /// a row is `|a| sin(w t - k x + arg a)`.
 ///
 /// # Errors
-/// A word that is no number, a frequency below zero, a height at the frequency zero.
+/// A word that is not a number, a frequency below zero, a height at the frequency zero.
 pub fn wave_components(text: &str, source: SourceId) -> Outcome<Vec<Wave>> {
     let list = rows(text, source, 0);
     let mut waves = Vec::new();
@@ -219,7 +219,7 @@ pub fn wave_components(text: &str, source: SourceId) -> Outcome<Vec<Wave>> {
 /// Reads an elevation over time: rows of time (s) and elevation (m) at x = y = 0.
 ///
 /// # Errors
-/// A word that is no number, times that do not grow, fewer than three rows.
+/// A word that is not a number, times that do not grow, fewer than three rows.
 pub fn wave_elevation(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> {
     let list = rows(text, source, 0);
     let mut found: Vec<(f64, f64)> = Vec::new();
@@ -237,7 +237,7 @@ pub fn wave_elevation(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> 
 /// Reads a table of stiffness: three lines of heads, then rows of strain and tension (N).
 ///
 /// # Errors
-/// A word that is no number, strains or tensions that do not grow, fewer than two rows.
+/// A word that is not a number, strains or tensions that do not grow, fewer than two rows.
 pub fn stiffness_table(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> {
     let list = rows(text, source, HEAD_LINES);
     let mut found: Vec<(f64, f64)> = Vec::new();
