@@ -23,7 +23,7 @@ enum {
     WINDLASS_INTERNAL = 3    /* a defect of windlass: the handle is not to be relied on */
 };
 
-/* The version of the library, as "0.1.0". */
+/* The version of the library, as "0.2.0". */
 const char *windlass_version(void);
 
 /* Why the last call of this thread did not do what it was asked. */

@@ -134,7 +134,7 @@ unsafe fn free<T>(given: *mut T) {
     }
 }
 
-/// The version, as `0.1.0`.
+/// The version, as `0.2.0`.
 #[unsafe(no_mangle)]
 pub extern "C" fn windlass_version() -> *const c_char {
     const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
