@@ -123,7 +123,7 @@ fn result_columns(study: &Study) -> Vec<StoredColumn> {
 /// A number of a row of a line, with its name and unit.
 type LineNumber = (&'static str, &'static str, fn(&LineRow) -> Option<f64>);
 
-const LINE_NUMBERS: [LineNumber; 24] = [
+const LINE_NUMBERS: [LineNumber; 26] = [
     ("mean_tension", "N", |l| l.mean_tension),
     ("dynamic_tension", "N", |l| l.dynamic_tension),
     ("max_tension", "N", |l| l.max_tension),
@@ -145,6 +145,8 @@ const LINE_NUMBERS: [LineNumber; 24] = [
     ("anchor_safety_factor", "", |l| l.anchor_safety_factor),
     ("anchor_required_factor", "", |l| l.anchor_required_factor),
     ("annual_damage", "1/year", |l| l.annual_damage),
+    ("design_life", "years", |l| l.design_life),
+    ("fatigue_factor", "", |l| l.fatigue_factor),
     ("grounded_length", "m", |l| l.grounded_length),
     ("offset", "m", |l| l.offset),
     ("loss_time", "s", |l| l.loss.as_ref().map(|loss| loss.time)),

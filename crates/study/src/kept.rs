@@ -229,6 +229,15 @@ pub struct LineRow {
     pub anchor_verdict: Option<LineVerdict>,
     /// Fatigue damage in a year of the environment of the case (of all its environments, by their share of the time).
     pub annual_damage: Option<f64>,
+    /// The life that it is judged by (years).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub design_life: Option<f64>,
+    /// The factor that the code asks of the design life.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fatigue_factor: Option<f64>,
+    /// Whether that factor and the fatigue curve are confirmed by their sources.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fatigue_confirmed: Option<bool>,
     /// Least length on the seabed (m).
     pub grounded_length: Option<f64>,
     /// Largest horizontal offset of the body (m).

@@ -1,4 +1,4 @@
-//! What the rows of lines come to: the governing row of each segment in each condition, anchors, fatigue, how the lines were run.
+//! What the rows of lines come to: the governing row of each segment in each condition, anchors, how the lines were run.
 
 use super::StudyView;
 use super::page::{ReportCell, ReportTable, Section, Tone};
@@ -7,10 +7,6 @@ use windlass_base::units::Dim;
 use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, MooringCondition, SeverityKind};
 use windlass_study::record::CaseRecord;
 
-/// Heads of the column of how often a case occurs.
-pub const PROBABILITY: &str = "probability";
-/// By how much the probabilities of a study may be above one together.
-const PROBABILITY_SLACK: f64 = 1e-6;
 /// Least ratio of the tension of a dynamic line to that of a quasi-static one that is marked.
 const NOTABLE_RATIO: f64 = 1.1;
 
@@ -59,7 +55,7 @@ pub fn governing_rows<'a>(view: &StudyView<'a>) -> Vec<Governing<'a>> {
 }
 
 /// A name split so that L2 comes before L10.
-fn natural_order(name: &str) -> (String, u64, String) {
+pub(super) fn natural_order(name: &str) -> (String, u64, String) {
     let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
     let head = name.get(..name.len() - digits.len()).unwrap_or(name);
     let number = digits.trim_start_matches(|c: char| c.is_ascii_digit());
@@ -446,106 +442,6 @@ pub fn anchor_section(view: &StudyView) -> Section {
     section.say("The largest pull at each anchor, the friction of the line on the bottom in it; of anchors that are checked the one nearest to its factor.");
     if best.values().all(|found| found.row.anchor_capacity.is_none()) {
         section.say("No capacity was given: CODE_CHECK -ANCHOR KIND DIRECTION CAPACITY checks an anchor.");
-    }
-    section
-}
-
-/// Fatigue of each segment: the damage of each case by how often it occurs.
-pub fn fatigue_section(view: &StudyView) -> Section {
-    let mut section = Section::new("fatigue", "Fatigue");
-    // a script that checks twice has two rows of a segment, with one damage
-    let is_first = |record: &CaseRecord, at: usize, row: &LineRow| {
-        let earlier = record.lines.get(..at).unwrap_or_default();
-        !earlier.iter().any(|e| e.line == row.line && e.segment == row.segment && e.annual_damage.is_some())
-    };
-    let with_damage = || {
-        let rows = view.judging_tension().flat_map(|r| r.lines.iter().enumerate().map(move |(at, row)| (r, at, row)));
-        let rows = rows.filter(|(record, at, row)| row.annual_damage.is_some() && is_first(record, *at, row));
-        rows.map(|(record, _, row)| (record, row))
-    };
-    if with_damage().next().is_none() {
-        section.say("No case keeps fatigue damage: FATIGUE before CODE_CHECK in the script does.");
-        return section;
-    }
-    let probability = |record: &CaseRecord| {
-        let (_, text) = record.values.iter().find(|(name, _)| name.eq_ignore_ascii_case(PROBABILITY))?;
-        text.parse::<f64>().ok().filter(|p| p.is_finite() && *p >= 0.0)
-    };
-    type Key = (MooringCondition, (String, u64, String), Option<usize>);
-    struct Sum<'a> {
-        label: String,
-        cases: usize,
-        probability: f64,
-        damage: f64,
-        largest: (f64, &'a str),
-        unweighted: usize,
-    }
-    let mut sums: BTreeMap<Key, Sum> = BTreeMap::new();
-    for (record, row) in with_damage() {
-        let damage = row.annual_damage.unwrap_or(0.0);
-        let key = (row.condition, natural_order(&row.line), row.segment);
-        let sum = sums.entry(key).or_insert(Sum {
-            label: row.label(),
-            cases: 0,
-            probability: 0.0,
-            damage: 0.0,
-            largest: (0.0, ""),
-            unweighted: 0,
-        });
-        sum.cases += 1;
-        match probability(record) {
-            Some(p) => {
-                sum.probability += p;
-                sum.damage += p * damage;
-                if p * damage > sum.largest.0 {
-                    sum.largest = (p * damage, &record.case);
-                }
-            }
-            None => sum.unweighted += 1,
-        }
-    }
-    let mut table = ReportTable::new(&[
-        "Condition",
-        "Line and segment",
-        "Cases",
-        "Sum of probabilities",
-        "Damage a year",
-        "Life (years)",
-        "Most damage in case",
-        "Its share",
-    ]);
-    let (mut unweighted, mut above) = (0, false);
-    for ((condition, ..), sum) in &sums {
-        unweighted += sum.unweighted;
-        above |= sum.probability > 1.0 + PROBABILITY_SLACK;
-        let damage = (sum.unweighted == 0 && sum.probability <= 1.0 + PROBABILITY_SLACK).then_some(sum.damage);
-        let life = damage.filter(|damage| *damage > 0.0).map(f64::recip);
-        table.rows.push(vec![
-            ReportCell::text(condition.word()),
-            ReportCell::text(&sum.label),
-            ReportCell::number(Some(sum.cases as f64), 0),
-            ReportCell::figures((sum.unweighted < sum.cases).then_some(sum.probability), 4),
-            ReportCell::figures(damage, 4),
-            ReportCell::figures(life, 4),
-            ReportCell::text(damage.map_or("", |_| sum.largest.1)),
-            ReportCell::number(damage.filter(|damage| *damage > 0.0).map(|damage| sum.largest.0 / damage), 3),
-        ]);
-    }
-    section.show(table);
-    section.say(
-        "The damage of each case, as if it lasted a year, times its column probability, the share of the time that it occurs. No fatigue factor is in the life.",
-    );
-    if unweighted > 0 {
-        section.say_in(
-            Tone::Unconfirmed,
-            format!("{unweighted} rows have no number in a column {PROBABILITY}: how often they occur is not known, and so neither is the life."),
-        );
-    }
-    if above {
-        section.say_in(
-            Tone::Unconfirmed,
-            "Probabilities are above 1 together: no life is given. Members of one sea share its probability.",
-        );
     }
     section
 }

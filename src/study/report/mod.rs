@@ -1,6 +1,7 @@
 //! `windlass report`: what an engineer sends out of a study, as one page of HTML and as Markdown.
 
 mod cases;
+mod fatigue;
 mod kept_run;
 mod lines;
 mod page;
@@ -189,11 +190,10 @@ fn write_report(args: &ReportArgs) -> Result<String, ReportError> {
     let mut view = StudyView {
         study: &study,
         units: units_of(&study),
-        is_unconfirmed: study
-            .records
-            .iter()
-            .flat_map(|record| &record.lines)
-            .any(|row| [row.verdict, row.anchor_verdict].contains(&Some(LineVerdict::Unconfirmed))),
+        is_unconfirmed: study.records.iter().flat_map(|record| &record.lines).any(|row| {
+            let is_unconfirmed = [row.verdict, row.anchor_verdict].contains(&Some(LineVerdict::Unconfirmed));
+            is_unconfirmed || row.fatigue_confirmed == Some(false)
+        }),
         direction: None,
     };
     view.direction = cases::direction_column(&view, args.direction.as_deref()).map_err(ReportError::Usage)?;
@@ -350,7 +350,7 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
         cases::result_section(view),
         cases::ensemble_section(ensembles),
         lines::anchor_section(view),
-        lines::fatigue_section(view),
+        fatigue::fatigue_section(view, &fatigue::fatigue_lives(view)),
         cases::failed_section(view),
         cases::message_section(view),
         cases::case_section(view, &rows),
@@ -400,6 +400,14 @@ fn banner(view: &StudyView) -> Vec<Block> {
         (0, _) if whole => section.say_in(Tone::Pass, format!("All {checked} checks of line tension are met.")),
         (0, _) => section.say(format!("All {checked} checks of line tension of the cases that have ended are met.")),
         (n, _) => section.say_in(Tone::Fail, format!("{n} of {checked} checks of lines are NOT met.")),
+    }
+    let short =
+        fatigue::fatigue_lives(view).iter().filter(|(_, life)| life.verdict() == Some(LineVerdict::Fail)).count();
+    if short > 0 {
+        section.say_in(
+            Tone::Fail,
+            format!("{short} {} too short a fatigue life.", if short == 1 { "segment has" } else { "segments have" }),
+        );
     }
     if failed > 0 {
         section.say_in(

@@ -372,6 +372,26 @@ fn fatigue_of_a_scatter_is_miners_sum_by_hand() {
     // the second sea does most: 0.25 x 0.05^3 = 3.1e-5 of 0.7 x 0.02^3 + .. + 0.05 x 0.08^3 = 6.2e-5
     let share = scatter[1].1 * damage(scatter[1].0) / sum;
     assert!(cells[7] == "x0.05" && (number(8) - share).abs() < 2e-3, "{row}: {share}");
+    // -LIFE with the factor of 3 of API RP 2SK, by the sum above. The curve of chain is not confirmed, so that nothing passes; a life that is too
+    // short is counted on top
+    for (years, verdict) in [(0.9 / (3.0 * sum), "UNCONFIRMED"), (1.1 / (3.0 * sum), "FAIL")] {
+        let script = fs::read_to_string(here.join("cart.cif")).unwrap();
+        fs::write(here.join("life.cif"), script.replace("LARGEST\n", &format!("LARGEST -LIFE {years}\n"))).unwrap();
+        let out = format!("L{verdict}");
+        let (code, said, err) = windlass(here, &["study", "cases.csv", "life.cif", "--out", &out]);
+        assert_eq!((code, err.as_str()), (Some(0), ""), "{said}");
+        let (code, said, _) = windlass(here, &["report", &out]);
+        assert!(
+            code == Some(0) && said.contains("2 segments have too short a fatigue life") == (verdict == "FAIL"),
+            "{said}"
+        );
+        let text = fs::read_to_string(here.join(&out).join("report.md")).unwrap();
+        let row = text.lines().find(|line| line.starts_with("| intact | L1 1 | 3 | 1 |")).unwrap();
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let number = |at: usize| cells[at].parse::<f64>().unwrap();
+        assert!((number(9) / years - 1.0).abs() < 1e-3 && number(10) == 3.0, "{row}");
+        assert!((number(11) / (years * 3.0 * sum) - 1.0).abs() < 3e-3 && cells[12] == verdict, "{row}");
+    }
     // seas that are there for longer than all the time give no life
     fs::write(here.join("cases.csv"), format!("case,X,probability\n{}", rows.replace("0.7", "0.9"))).unwrap();
     assert_eq!(windlass(here, &["study", "cases.csv", "cart.cif", "--out", "S"]).0, Some(0));

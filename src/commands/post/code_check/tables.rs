@@ -6,10 +6,11 @@ use crate::commands::Job;
 use crate::commands::name_filter::NameFilter;
 use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_design_checks::anchor::{AnchorCheck, AnchorLoad, check_anchor};
-use windlass_design_checks::codes::{Analysis, AnchorKind, Code, Condition, Provenance, PullDirection};
+use windlass_design_checks::codes::{Analysis, AnchorKind, Code, Condition, FatigueRule, Provenance, PullDirection};
 use windlass_design_checks::fatigue::{WeightedDamage, annual_damage, check_fatigue};
 use windlass_design_checks::limits::{Side, check_limit};
 use windlass_design_checks::strength::corroded;
@@ -132,7 +133,11 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
     let mut tables = vec![lines];
     let anchors = anchor_rows(query, mooring, &mut provenances)?;
     tables.extend(anchors.as_ref().map(|(rows, unknown)| anchor_table(rows, unknown)));
-    tables.extend(fatigue(job, query, &mut provenances)?);
+    let life = life_rule(job, query)?;
+    if let Some(life) = &life {
+        tables.push(fatigue(job, query, life)?);
+        provenances.push(life.rule.provenance.clone());
+    }
     tables.extend(limits(job, query, mooring)?);
     let confirmed = provenances.iter().all(Provenance::is_confirmed);
     if let Some(first) = tables.first_mut() {
@@ -155,7 +160,7 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
     }
     let anchors: Vec<AnchorRow> = anchors.map(|(rows, _)| rows).unwrap_or_default();
     let source = format!("{}; {}", query.code.edition, provenance_notes(&[rule.provenance]).join("; "));
-    let kept = KeptRows { job, query, mooring, anchors: &anchors, confirmed, source: &source };
+    let kept = KeptRows { job, query, mooring, anchors: &anchors, life: life.as_ref(), confirmed, source: &source };
     let kept = rows.iter().map(|row| kept.row(row)).collect();
     Ok((tables, kept))
 }
@@ -313,19 +318,33 @@ fn anchor_table(rows: &[AnchorRow], unknown: &[&str]) -> Table {
     table
 }
 
-fn fatigue(job: &Job, query: &CheckQuery, provenances: &mut Vec<Provenance>) -> Outcome<Option<Table>> {
+/// What `-LIFE` asks for.
+struct LifeRule {
+    /// Design life (years).
+    years: f64,
+    /// Damage of the less over that of the more damaged of neighbouring lines, where it is given.
+    ratio: Option<f64>,
+    rule: FatigueRule,
+    /// Where the option stands.
+    span: Span,
+}
+
+fn life_rule(job: &Job, query: &CheckQuery) -> Outcome<Option<LifeRule>> {
     let Some(given) = query.args.option(&LIFE) else { return Ok(None) };
-    let years = given.number(const { LIFE.number("YEARS") }).unwrap_or(f64::NAN);
-    let ratio = given.number(const { LIFE.number("RATIO") });
-    let Some(last) = job.scatter.last() else {
+    if job.scatter.is_empty() {
         return Err(Diagnostic::error("no fatigue damage has been found yet", given.span)
             .help("FATIGUE of each environment, the later ones with -ADD, comes before"));
-    };
+    }
     let rule =
         query.code.fatigue_rule(&query.options).map_err(|error| Diagnostic::error(error.to_string(), given.span))?;
+    let years = given.number(const { LIFE.number("YEARS") }).unwrap_or(f64::NAN);
+    Ok(Some(LifeRule { years, ratio: given.number(const { LIFE.number("RATIO") }), rule, span: given.span }))
+}
+
+fn fatigue(job: &Job, query: &CheckQuery, LifeRule { years, ratio, rule, span }: &LifeRule) -> Outcome<Table> {
     let total: f64 = job.scatter.iter().map(|run| run.duration).sum();
     let mut rows = Vec::new();
-    for (name, own) in &last.lines {
+    for (name, own) in job.scatter.last().map_or(&[][..], |run| &run.lines) {
         for (index, segment) in own.segments.iter().enumerate() {
             let states: Vec<WeightedDamage> = job
                 .scatter
@@ -340,22 +359,22 @@ fn fatigue(job: &Job, query: &CheckQuery, provenances: &mut Vec<Provenance>) -> 
             if states.len() != job.scatter.len() {
                 return Err(Diagnostic::error(
                     format!("{who}: an environment of the scatter reports nothing of it"),
-                    given.span,
+                    *span,
                 ));
             }
             let (annual, _) = annual_damage(&states).map_err(|error| wrong(query, &who, &error))?;
-            let mut checked = check_fatigue(annual, years, ratio, &rule).map_err(|error| wrong(query, &who, &error))?;
+            let mut checked =
+                check_fatigue(annual, *years, *ratio, rule).map_err(|error| wrong(query, &who, &error))?;
             if segment.unconfirmed && checked.verdict == Verdict::Pass {
                 checked.verdict = Verdict::Unconfirmed;
             }
             rows.push((name.as_str(), segment, annual, checked));
         }
     }
-    provenances.push(rule.provenance);
     let curves: Vec<&str> = rows.iter().filter(|(_, s, ..)| s.unconfirmed).map(|(_, s, ..)| s.curve.as_str()).collect();
     let mut table = Table::new("Code Check of Fatigue Life")
         .fact("Environments", job.scatter.len(), Dim::None)
-        .fact("Design Life, Years", years, Dim::None)
+        .fact("Design Life, Years", *years, Dim::None)
         .with_rows(&rows)
         .text("Line", |row| row.0)
         .column("", "Segment", Dim::None, Digits::Usual, |row| row.1.segment)
@@ -374,7 +393,7 @@ fn fatigue(job: &Job, query: &CheckQuery, provenances: &mut Vec<Provenance>) -> 
             table.warn(format!("the numbers of curve {curve} are not confirmed: life by it is no pass"));
         }
     }
-    Ok(Some(table))
+    Ok(table)
 }
 
 fn limits(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> Outcome<Option<Table>> {
@@ -433,6 +452,7 @@ struct KeptRows<'a> {
     query: &'a CheckQuery<'a>,
     mooring: &'a CheckedMooring,
     anchors: &'a [AnchorRow<'a>],
+    life: Option<&'a LifeRule>,
     /// Whether all factors of the check are.
     confirmed: bool,
     /// Edition, clause and source of the factor of tension.
@@ -461,6 +481,12 @@ impl KeptRows<'_> {
         annual_damage(&states?).ok().map(|(damage, _)| damage)
     }
 
+    /// Whether the fatigue curve of a segment is confirmed in every environment.
+    fn curve_is_confirmed(&self, row: &SegmentRow) -> bool {
+        let lines = self.job.scatter.iter().flat_map(|run| &run.lines).filter(|(name, _)| *name == row.line.name);
+        !lines.flat_map(|(_, line)| &line.segments).any(|s| s.segment == row.segment && s.unconfirmed)
+    }
+
     /// What a study keeps of a segment.
     fn row(&self, row: &SegmentRow) -> LineRow {
         let mooring = self.mooring;
@@ -474,6 +500,8 @@ impl KeptRows<'_> {
             a.cmp(&b).then(used.total_cmp(&of_b))
         });
         let mpm = row.load.mpm;
+        let annual_damage = self.annual_damage(row);
+        let life = self.life.filter(|_| annual_damage.is_some());
         LineRow {
             line: row.line.name.clone(),
             segment: Some(row.segment),
@@ -519,7 +547,10 @@ impl KeptRows<'_> {
             anchor_safety_factor: check.and_then(|check| finite(check.checked.safety_factor)),
             anchor_required_factor: check.map(|check| check.checked.required),
             anchor_verdict: check.map(|check| self.verdict(check.checked.verdict)),
-            annual_damage: self.annual_damage(row),
+            annual_damage,
+            design_life: life.map(|life| life.years),
+            fatigue_factor: life.and_then(|life| life.rule.factor_at(life.ratio).ok()),
+            fatigue_confirmed: life.map(|life| life.rule.is_confirmed() && self.curve_is_confirmed(row)),
             grounded_length: row.line.grounded,
             offset: None,
         }
