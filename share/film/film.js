@@ -9,7 +9,7 @@
   const moments = new Float64Array(bytes(data.times));
   const bodies = data.bodies.map((b) => ({
     ...b, points: new Float32Array(bytes(b.points)), triangles: new Uint32Array(bytes(b.triangles)),
-    edges: new Uint32Array(bytes(b.edges)), poses: new Float32Array(bytes(b.poses)),
+    edges: new Uint32Array(bytes(b.edges)), poses: new Float32Array(bytes(b.poses)), pressures: new Float32Array(bytes(b.pressures)),
   }));
   const lines = data.lines.map((l) => ({
     ...l, points: new Uint16Array(bytes(l.points)), tensions: new Uint16Array(bytes(l.tensions)),
@@ -29,9 +29,9 @@
   }
   const camera = new Camera(reach);
   const STOPS = [[0.06, 0.2, 0.55], [0.42, 0.13, 0.62], [0.78, 0.18, 0.4], [0.93, 0.43, 0.1], [0.99, 0.75, 0.08]];
-  function ramp(share) {
-    const at = Math.min(Math.max(share, 0), 1) * (STOPS.length - 1), n = Math.min(Math.floor(at), STOPS.length - 2);
-    return STOPS[n].map((v, i) => v + (at - n) * (STOPS[n + 1][i] - v));
+  function ramp(share, stops = STOPS) {
+    const at = Math.min(Math.max(share, 0), 1) * (stops.length - 1), n = Math.min(Math.floor(at), stops.length - 2);
+    return stops[n].map((v, i) => v + (at - n) * (stops[n + 1][i] - v));
   }
   const css = (c) => `rgb(${c.map((v) => Math.round(255 * v)).join(",")})`;
   // A round number: 1, 2 or 5 times a power of ten, at most this.
@@ -69,7 +69,23 @@
   }
   const drawn = painter.buffer(new Float32Array(0), false), crosses = painter.buffer(new Float32Array(0), false);
 
-  const surface = water(painter, sea, { bodies, plane, middle, reach, level: data.level });
+  const waves = data.field && { ...data.field, values: new Float32Array(bytes(data.field.values)) };
+  const surface = waves ? field(painter, waves, { middle, reach, level: data.level })
+    : water(painter, sea, { bodies, plane, middle, reach, level: data.level });
+  // Pressures of both signs: white is none.
+  const SIGNS = [[0.02, 0.19, 0.38], [0.57, 0.77, 0.87], [0.97, 0.97, 0.97], [0.96, 0.65, 0.51], [0.4, 0.0, 0.12]];
+  for (const body of bodies) {
+    if (body.pressures.length) body.mesh.paints = painter.buffer(new Float32Array(3 * body.mesh.count), false);
+  }
+  function paint(body, time) {
+    const [c, s] = [Math.cos(waves.frequency * time), Math.sin(waves.frequency * time)], out = new Float32Array(3 * body.mesh.count);
+    for (let t = 0; t < body.pressures.length / 2; t++) {
+      const value = (body.pressures[2 * t] * c + body.pressures[2 * t + 1] * s) / (data.pressure || 1);
+      const colour = ramp(0.5 + 0.5 * value, SIGNS);
+      for (let k = 0; k < 3; k++) out.set(colour, 9 * t + 3 * k);
+    }
+    painter.refill(body.mesh.paints, out);
+  }
 
   const now = { time: moments[0], playing: false, speed: 1, labels: true, water: true, by: data.share > 0 ? "share" : "tension" };
   const last = moments.length - 1;
@@ -111,7 +127,7 @@
     tags.push({ made, where });
   }
   let where = [0, 0, 0];
-  bodies.forEach((b) => tag(b.name, "body", () => { const m = poseOf(b, where); return [m[12], m[13], m[14]]; }));
+  bodies.filter((b) => b.name).forEach((b) => tag(b.name, "body", () => { const m = poseOf(b, where); return [m[12], m[13], m[14]]; }));
   lines.forEach((l) => tag(l.name, "line", () => l.states[where[0]] ? pointOf(l, Math.floor(l.count * 0.4), where) : null));
   anchors.filter((a) => !lines.some((l) => l.name === a.name)).forEach((a) => tag(a.name, "anchor", () => a.at));
   const rows = lines.map((line) => {
@@ -152,6 +168,7 @@
     painter.strokes(crosses, 6 * marks.length, 2.4);
     for (const body of bodies) {
       const pose = poseOf(body, where);
+      if (body.pressures.length) paint(body, now.time);
       painter.mesh(body.mesh, pose, body.junction ? [0.95, 0.8, 0.2, 1] : body.box ? [0.72, 0.76, 0.8, 1] : [0.86, 0.45, 0.22, 1]);
       painter.strokes(body.strokes.buffer, body.strokes.count, 1.2, 0.9, pose);
     }
@@ -224,6 +241,18 @@
   }
   function legend() {
     const share = now.by === "share", most = share ? data.share : data.tension * data.force.per;
+    if (data.pressure > 0) {
+      $("least").textContent = (-data.pressure).toFixed(2);
+      $("most").textContent = data.pressure.toFixed(2);
+      $("what").textContent = "pressure over density \u00d7 gravity \u00d7 amplitude";
+      const pen = $("ramp").getContext("2d");
+      for (let x = 0; x < 160; x++) {
+        pen.fillStyle = css(ramp(x / 159, SIGNS));
+        pen.fillRect(x, 0, 1, 12);
+      }
+      $("legend").hidden = false;
+      return;
+    }
     $("most").textContent = share ? most.toFixed(3) : figures(most);
     $("what").textContent = share ? "tension/break along the line" : `tension along the line (${data.force.name})`;
     const pen = $("ramp").getContext("2d");

@@ -81,14 +81,15 @@ class Camera {
 
 const HEAD = "#version 300 es\nprecision highp float;\n";
 const SOLID = [HEAD + `
-in vec3 place; in vec3 normal; uniform mat4 whole; uniform mat4 pose; out vec3 face; out vec3 at;
-void main() { vec4 p = pose * vec4(place, 1.); at = p.xyz; face = mat3(pose) * normal; gl_Position = whole * p; }`, HEAD + `
-in vec3 face; in vec3 at; uniform vec4 colour; uniform vec3 eye; out vec4 ink;
+in vec3 place; in vec3 normal; in vec3 paint; uniform mat4 whole; uniform mat4 pose; out vec3 face; out vec3 at; out vec3 tint;
+void main() { vec4 p = pose * vec4(place, 1.); at = p.xyz; face = mat3(pose) * normal; tint = paint; gl_Position = whole * p; }`, HEAD + `
+in vec3 face; in vec3 at; in vec3 tint; uniform vec4 colour; uniform float painted; uniform vec3 eye; out vec4 ink;
 void main() {
   vec3 n = normalize(face); vec3 v = normalize(eye - at);
   if (dot(n, v) < 0.) n = -n;
   float light = .42 + .38 * max(dot(n, normalize(vec3(-.4, -.5, .9))), 0.) + .2 * max(dot(n, v), 0.);
-  ink = vec4(colour.rgb * light, colour.a);
+  // colours that tell a value are lit less
+  ink = vec4(mix(colour.rgb * light, tint * (.75 + .25 * light), painted), colour.a);
 }`];
 // A segment is four corners; each knows both ends, and is moved aside by half the width on the screen.
 const STROKE = [HEAD + `
@@ -185,6 +186,9 @@ class Painter {
     gl.uniformMatrix4fv(p.at("whole"), false, this.whole);
     gl.uniformMatrix4fv(p.at("pose"), false, pose);
     gl.uniform4fv(p.at("colour"), colour);
+    gl.uniform1f(p.at("painted"), mesh.paints ? 1 : 0);
+    if (mesh.paints) this.attribute(p, "paint", mesh.paints, 3);
+    else if (gl.getAttribLocation(p.made, "paint") >= 0) gl.disableVertexAttribArray(gl.getAttribLocation(p.made, "paint"));
     gl.uniform3fv(p.at("eye"), this.eye);
     // what lies on a surface is drawn before it
     if (behind) {

@@ -70,3 +70,51 @@ function water(painter, sea, { bodies, plane, middle, reach, level }) {
   };
   return made;
 }
+
+// The water about bodies in a regular wave, on its own grid: zeta = Re(value exp(-i w t)); none within the bodies.
+function field(painter, { low, step, columns, frequency, values }, { middle, reach, level }) {
+  const n = columns, m = values.length / 2 / n, heights = new Float32Array(n * m), slopes = new Float32Array(2 * n * m);
+  const places = new Float32Array(2 * n * m), corners = [], wet = (at) => Number.isFinite(values[2 * at]);
+  for (let j = 0; j < m; j++) {
+    for (let i = 0; i < n; i++) {
+      const at = j * n + i;
+      places.set([low[0] + step * i - middle[0], low[1] + step * j - middle[1]], 2 * at);
+      const cell = [at, at + 1, at + n + 1, at + n];
+      // a cell at a hull is drawn into it, with the water of its wet corners
+      if (i + 1 < n && j + 1 < m && cell.some(wet)) corners.push(cell[0], cell[1], cell[2], cell[0], cell[2], cell[3]);
+    }
+  }
+  const near = new Int32Array(n * m).map((_, at) => {
+    if (wet(at)) return at;
+    const [i, j] = [at % n, Math.floor(at / n)];
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, 1], [1, -1], [-1, -1]]) {
+      const [x, y] = [i + dx, j + dy];
+      if (x >= 0 && y >= 0 && x < n && y < m && wet(y * n + x)) return y * n + x;
+    }
+    return -1;
+  });
+  const gl = painter.gl, index = gl.createBuffer();
+  gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, index);
+  gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(corners), gl.STATIC_DRAW);
+  const made = { flat: painter.buffer(places), high: painter.buffer(heights, false), slope: painter.buffer(slopes, false),
+    corners: index, count: corners.length, boost: Math.min(Math.max(reach / 200, 2), 6), time: NaN };
+  made.move = (time) => {
+    if (made.time === time) return;
+    made.time = time;
+    const [c, s] = [Math.cos(frequency * time), Math.sin(frequency * time)];
+    for (let at = 0; at < n * m; at++) {
+      const from = near[at];
+      heights[at] = level - middle[2] + (from < 0 ? 0 : values[2 * from] * c + values[2 * from + 1] * s);
+    }
+    for (let j = 0; j < m; j++) {
+      for (let i = 0; i < n; i++) {
+        const [l, r] = [Math.max(i - 1, 0), Math.min(i + 1, n - 1)], [d, u] = [Math.max(j - 1, 0), Math.min(j + 1, m - 1)];
+        slopes[2 * (j * n + i)] = (heights[j * n + r] - heights[j * n + l]) / (step * Math.max(r - l, 1));
+        slopes[2 * (j * n + i) + 1] = (heights[u * n + i] - heights[d * n + i]) / (step * Math.max(u - d, 1));
+      }
+    }
+    painter.refill(made.high, heights);
+    painter.refill(made.slope, slopes);
+  };
+  return made;
+}

@@ -39,7 +39,8 @@ pub use model::pgen::keep_refused as keep_refused_surface;
 pub use model::shapes::take_shape;
 use model::{
     alter, apply, assembly, block_combination, class, compartment, connector, database, describe, element,
-    hydrodynamics, hydrostatic, junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, weight,
+    hydrodynamics, hydrostatic, junction, loads, names, pgen, piece, pipe, select, surface, t_pressure, wave_picture,
+    weight,
 };
 pub use output::animate::DEFAULT_LINE_POINTS as FILM_LINE_POINTS;
 pub use output::buildg::take as take_row;
@@ -233,6 +234,7 @@ static LISTED: &[&Command] = &[
     &hydrodynamics::V_MATRICES,
     &hydrodynamics::V_EXFORCES,
     &hydrodynamics::V_MDRIFT,
+    &wave_picture::V_WAVES,
     &class::CLASS,
     &connector::CONNECTOR,
     &element::BEAM,

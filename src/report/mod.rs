@@ -22,4 +22,5 @@ pub mod run_log;
 pub mod statistic;
 pub mod stored;
 pub mod taken_state;
+pub mod wave_picture;
 pub mod xlsx;

@@ -98,11 +98,13 @@ mod floating {
     mod networks;
     mod panel_forces;
     mod piece_loads;
+    mod quay;
     mod semi_study;
     mod side_by_side;
     mod steady_loads;
     mod structure;
     mod unmodelled_effects;
+    mod wave_pictures;
     mod wind_current_time_domain;
 }
 
@@ -142,5 +144,6 @@ mod aqwa {
     mod aqwa_tether_statistics;
     mod deck_cards;
     mod deck_lines;
+    mod deck_panels;
     mod deck_tethers;
 }

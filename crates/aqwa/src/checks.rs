@@ -6,6 +6,7 @@ use super::card::Field;
 use super::elements::ElementShape;
 use super::job::Program;
 use super::lines::{DYNAMIC_ELEMENTS, LineKind, MooringLine};
+use super::panels;
 use super::remarks::Remarks;
 use super::start_positions;
 use super::tethers::Tether;
@@ -22,6 +23,8 @@ pub fn check(deck: &Deck, remarks: &mut Remarks) {
     let whole = deck.job.has_deck(1);
     if whole {
         elements(deck, remarks);
+        panels::check(deck, remarks);
+        diffraction(deck, remarks);
         assumed_coefficients(deck, remarks);
         waterlines(deck, remarks);
         buoyancies(deck, remarks);
@@ -72,14 +75,13 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
                         });
                         continue;
                     }
-                    remarks.add_once("panels", || {
-                        let whose = match deck.job.program {
-                            Program::Line => "LINE, the diffraction analysis of panels, has no solver here",
-                            _ => "the diffraction analysis of panels is not done here",
-                        };
-                        Diagnostic::error(format!("deck 2, {keyword}: {whose}"), element.span)
-                        .help("FILE NAME.AH1 in deck 6 or 7 gives the coefficients that AQWA-LINE writes with OPTIONS AHD1 END")
-                    })
+                    if element.shape == ElementShape::FieldPoint {
+                        remarks.add_once("field points", || {
+                            let text = format!("deck 2, {keyword}: no pressures are printed at points of the field");
+                            Diagnostic::remark(text, element.span)
+                                .help("PLOT WAVES of the model draws the waves around the bodies")
+                        });
+                    }
                 }
                 ElementShape::Stub | ElementShape::Disc => remarks.add_once("stubs", || {
                     Diagnostic::error(
@@ -96,6 +98,49 @@ fn elements(deck: &Deck, remarks: &mut Remarks) {
             {
                 let message = format!("deck 2, TUBE: nodes {first} and {second} are at one place");
                 remarks.add(Diagnostic::error(message, element.span).label("a tube has a length"));
+            }
+        }
+    }
+}
+
+/// What the diffraction of waves by panels asks for: frequencies and directions, a mass, structures that are there.
+fn diffraction(deck: &Deck, remarks: &mut Remarks) {
+    for structure in &deck.structures {
+        let number = structure.number;
+        if let Some(first) = structure.solved_with
+            && !(1..number).contains(&first.value)
+        {
+            let text =
+                format!("deck 2, HYDI, columns 16-20: {} is no structure before structure {number}", first.value);
+            remarks.add(
+                Diagnostic::error(text, first.span)
+                    .label("the first of the structures that are solved together with this one")
+                    .help("the card stands in the deck of the last of them"),
+            );
+        }
+        let has_tubes = structure.elements.iter().any(|element| element.shape == ElementShape::Tube);
+        if let (Some(card), true) = (structure.mirrors.iter().flatten().next(), has_tubes) {
+            remarks.add(
+                Diagnostic::error("deck 2: no source says what SYMX and SYMY do to TUBE elements", *card)
+                    .help("give all panels of a structure with tubes, without SYMX and SYMY"),
+            );
+        }
+        if !structure.is_diffracting() || deck.database(structure).is_some() || !deck.job.has_deck(6) {
+            continue;
+        }
+        let known = deck.hydrostatics_of(number);
+        for (what, cards, is_missing) in [
+            ("frequencies", "FREQ, PERD or HRTZ", known.is_none_or(|known| known.frequencies.is_empty())),
+            ("directions", "DIRN", known.is_none_or(|known| known.directions.is_empty())),
+        ] {
+            if is_missing && deck.job.program == Program::Line {
+                remarks.add(
+                    Diagnostic::error(format!("deck 6: structure {number} has no {what}"), structure.span)
+                        .label("its panels diffract waves")
+                        .help(format!(
+                            "{cards} in deck 6: first index in columns 11-15, last in 16-20, values from 21 on"
+                        )),
+                );
             }
         }
     }

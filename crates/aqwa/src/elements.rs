@@ -4,10 +4,13 @@
 //! column 21 on, groups in brackets: the number of elements to make, then for each node `(node, step)`, then the
 //! material group and the geometry group where the kind has them, each with a step of its own if wanted.
 //!
-//! Source: [AQWA-REF deck 2]; [AQWA-TETHER 8.1.2 and 8.2.2].
+//! SYMX mirrors the panels of a structure at Y = 0, SYMY at X = 0. HYDI names the first of the structures that are solved together with this one.
+//! Text behind the brackets is a remark, as programs that write decks leave it.
+//!
+//! Source: [AQWA-REF deck 2]; [AQWA-TETHER 8.1.2 and 8.2.2]; the planes of SYMX and SYMY, and the remarks, by decks of [BEMROSETTA-AQWA].
 
-use super::card::{integer, real};
-use super::layout::{CardLayout, CardRecord};
+use super::card::{Field, integer, real};
+use super::layout::{CardLayout, CardRecord, int};
 use super::remarks::Remarks;
 use std::collections::HashMap;
 use windlass_base::diagnostic::Diagnostic;
@@ -49,31 +52,37 @@ const KINDS: &[(&str, ElementShape, usize, bool, bool)] = &[
     ("FPNT", ElementShape::FieldPoint, 1, false, false),
 ];
 
-const DIFFRACTION_CARD_REASON: &str = "this card is for the diffraction analysis of a hull, which is not done here; \
-                      a structure is made of TUBE, PMAS, STUB, DISC and PBOY elements or comes from a hydrodynamic database";
+const UNPUBLISHED_CARD_REASON: &str =
+    "the effect of this card is published nowhere; give all panels in deck 2, where they are";
+const EXTERNAL_LID_REASON: &str =
+    "a lid that takes energy from the water outside a hull is not read; leave the card out, and its panels";
+const PROFILE_REASON: &str = "panels of a profile that is turned about Z are not made; give them by QPPL and TPPL";
 
 /// Cards of deck 2.
 pub const LAYOUTS: &[CardLayout] = &[
-    CardLayout::text("TUBE").freely(),
-    CardLayout::text("PMAS").freely(),
-    CardLayout::text("STUB").freely(),
-    CardLayout::text("DISC").freely(),
-    CardLayout::text("PBOY").freely(),
-    CardLayout::text("QPPL").freely(),
-    CardLayout::text("TPPL").freely(),
-    CardLayout::text("FPNT").freely(),
-    CardLayout::text("ZLWL"),
-    CardLayout::refuse("FIXD", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("SYMX", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("SYMY", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("RMXS", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("RMYS", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("HYDI", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("ILID", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("VLID", DIFFRACTION_CARD_REASON),
+    CardLayout::brackets("TUBE").freely(),
+    CardLayout::brackets("PMAS").freely(),
+    CardLayout::brackets("STUB").freely(),
+    CardLayout::brackets("DISC").freely(),
+    CardLayout::brackets("PBOY").freely(),
+    CardLayout::brackets("QPPL").freely(),
+    CardLayout::brackets("TPPL").freely(),
+    CardLayout::brackets("FPNT").freely(),
+    CardLayout::brackets("ZLWL"),
+    CardLayout::new("FIXD", &[]),
+    CardLayout::new("SYMX", &[]),
+    CardLayout::new("SYMY", &[]),
+    CardLayout::refuse("RMXS", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("RMYS", UNPUBLISHED_CARD_REASON),
+    CardLayout::new(
+        "HYDI",
+        &[int("first structure of those that are solved together", 16).required().not_below_zero()],
+    ),
+    CardLayout::brackets("ILID"),
+    CardLayout::refuse("VLID", EXTERNAL_LID_REASON),
     CardLayout::pass_over("SEAG", "the grid of the sea is for pictures of AQWA and has no effect"),
-    CardLayout::refuse("MSTR", DIFFRACTION_CARD_REASON),
-    CardLayout::refuse("ASYM", DIFFRACTION_CARD_REASON),
+    CardLayout::refuse("MSTR", UNPUBLISHED_CARD_REASON),
+    CardLayout::refuse("ASYM", PROFILE_REASON),
 ];
 
 /// An element of a structure.
@@ -87,6 +96,10 @@ pub struct StructureElement {
     pub material: i64,
     /// Geometry group; 0 where the kind has none.
     pub geometry: i64,
+    /// Number of its group of elements; 0 where none is given.
+    pub group: i64,
+    /// Whether it is a panel that diffracts waves (DIFF).
+    pub is_diffracting: bool,
     /// The card that made it.
     pub span: Span,
 }
@@ -100,6 +113,14 @@ pub struct StructureDeck {
     pub elements: Vec<StructureElement>,
     /// Height of the water line in the axes of deck 1 (ZLWL), where given.
     pub waterline: Option<(f64, Span)>,
+    /// The cards that mirror its panels at Y = 0 (SYMX) and at X = 0 (SYMY).
+    pub mirrors: [Option<Span>; 2],
+    /// The card that fixes it in AQWA-LINE (FIXD).
+    pub fixed: Option<Span>,
+    /// First of the structures that are solved together with it (HYDI).
+    pub solved_with: Option<Field<i64>>,
+    /// The card of its lid (ILID), with the group of the panels that are it; 0 where they are made by the program.
+    pub lid: Option<(i64, Span)>,
     /// Header of its deck.
     pub span: Span,
 }
@@ -116,12 +137,35 @@ impl ElementShape {
     }
 }
 
+impl StructureDeck {
+    /// The panels of its hull: QPPL and TPPL, without those of its lid.
+    pub fn hull_elements(&self) -> impl Iterator<Item = &StructureElement> {
+        let lid = self.lid.map_or(0, |(group, _)| group);
+        let is_panel =
+            |element: &&StructureElement| matches!(element.shape, ElementShape::Quad | ElementShape::Triangle);
+        self.elements.iter().filter(is_panel).filter(move |element| lid == 0 || element.group != lid)
+    }
+
+    /// Whether waves are diffracted by panels of it.
+    pub fn is_diffracting(&self) -> bool {
+        self.hull_elements().any(|element| element.is_diffracting)
+    }
+}
+
 /// The structure of the cards of one deck ELMn; `present` elements were made before.
 pub fn read(number: i64, span: Span, records: &[CardRecord], present: usize, remarks: &mut Remarks) -> StructureDeck {
     let mut structure = StructureDeck { number, span, ..StructureDeck::default() };
     // elements by kind, nodes and groups, with their cards
     let mut there: HashMap<(ElementShape, Vec<i64>, i64, i64), Span> = HashMap::new();
     for record in records {
+        match record.keyword.as_str() {
+            "SYMX" => structure.mirrors[0] = Some(record.span),
+            "SYMY" => structure.mirrors[1] = Some(record.span),
+            "FIXD" => structure.fixed = Some(record.span),
+            "HYDI" => structure.solved_with = Some(record.int(16)),
+            "ILID" => structure.lid = remarks.keep(lid(record)).map(|group| (group, record.span)),
+            _ => {}
+        }
         if record.keyword == "ZLWL" {
             let height = groups(record).and_then(|(_, list)| match list.as_slice() {
                 [one] => match one.as_slice() {
@@ -173,7 +217,7 @@ fn elements(
     geometry: bool,
     made: usize,
 ) -> Result<Vec<StructureElement>, Box<Diagnostic>> {
-    let (_, list) = groups(record)?;
+    let (Head { group, is_diffracting }, list) = groups(record)?;
     let wanted = 1 + nodes + usize::from(material) + usize::from(geometry);
     if list.len() != wanted {
         let message =
@@ -205,6 +249,8 @@ fn elements(
         nodes: (1..=nodes).map(|index| at(index, k)).collect(),
         material: if material { at(1 + nodes, k) } else { 0 },
         geometry: if geometry { at(1 + nodes + usize::from(material), k) } else { 0 },
+        group,
+        is_diffracting,
         span: record.span,
     };
     Ok((0..count).map(element).collect())
@@ -215,13 +261,35 @@ fn misread(record: &CardRecord, wanted: &str) -> Box<Diagnostic> {
         .label(format!("{wanted} belong from column 21 on"))
 }
 
-/// What stands before the brackets (the group of elements), and the numbers of each bracket.
-fn groups(record: &CardRecord) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> {
+/// What stands before the brackets.
+struct Head {
+    /// The group of elements; 0 for none.
+    group: i64,
+    is_diffracting: bool,
+}
+
+/// The group of the panels that are the lid of a structure; 0 where the program makes it.
+fn lid(record: &CardRecord) -> Result<i64, Box<Diagnostic>> {
+    let head = record.text.split('(').next().unwrap_or_default().trim();
+    let wrong = || {
+        Diagnostic::error(format!("deck 2, ILID: `{}` is not understood", record.text), record.text_place)
+            .label("AUTO in columns 12-15, or the group of the panels of the lid in columns 16-20")
+    };
+    match head.strip_prefix("AUTO").or_else(|| head.strip_prefix("auto")) {
+        Some(group) if group.trim().is_empty() || integer(group.trim()).is_some() => Ok(0),
+        Some(_) => Err(wrong()),
+        None => integer(head).filter(|group| *group > 0).ok_or_else(wrong),
+    }
+}
+
+/// What stands before the brackets, and the numbers of each bracket. Text behind them is a remark.
+fn groups(record: &CardRecord) -> Result<(Head, Vec<Vec<f64>>), Box<Diagnostic>> {
     let wrong = || misread(record, "numbers in brackets");
     let text = record.text.as_str();
     let open = text.find('(').ok_or_else(wrong)?;
     let head = text.get(..open).unwrap_or_default().trim();
-    let head = head.strip_prefix("DIFF").or_else(|| head.strip_prefix("diff")).unwrap_or(head).trim();
+    let named = head.strip_prefix("DIFF").or_else(|| head.strip_prefix("diff"));
+    let (is_diffracting, head) = (named.is_some(), named.unwrap_or(head).trim());
     let group = if head.is_empty() { 0 } else { integer(head).ok_or_else(wrong)? };
     let mut rest = text.get(open..).unwrap_or_default();
     let mut list = Vec::new();
@@ -232,5 +300,6 @@ fn groups(record: &CardRecord) -> Result<(i64, Vec<Vec<f64>>), Box<Diagnostic>> 
         list.push(numbers.ok_or_else(wrong)?);
         rest = after.get(close + 1..).unwrap_or_default().trim_start_matches([' ', ',']);
     }
-    if rest.is_empty() { Ok((group, list)) } else { Err(wrong()) }
+    let is_remark = rest.starts_with(|c: char| c.is_alphabetic()) && !rest.contains(['(', ')']);
+    if rest.is_empty() || is_remark { Ok((Head { group, is_diffracting }, list)) } else { Err(wrong()) }
 }

@@ -1,6 +1,6 @@
 //! Decks 6 to 10: frequencies and directions, stiffness and coefficients of the structures at their equilibrium.
 //!
-//! Source: [AQWA-TETHER 6.2 and 8.1.7]; [AQWA-REF decks 6 to 10].
+//! Source: [AQWA-TETHER 6.2 and 8.1.7]; [AQWA-REF decks 6 to 10]; HRTZ and DIRN of deck 6 by decks of [BEMROSETTA-AQWA].
 
 use super::card::Field;
 use super::layout::{CardLayout, CardRecord, Slot, int, num};
@@ -34,8 +34,8 @@ const STRUCTURE_OF_FILE: &[Slot] = &[int("structure of the file", 11).not_below_
 pub const FREQUENCIES: &[CardLayout] = &[
     CardLayout::assume("FREQ", VALUES).freely(),
     CardLayout::assume("PERD", VALUES).freely(),
-    CardLayout::assume("HRTZ", VALUES).freely(),
-    CardLayout::assume("DIRN", VALUES).freely(),
+    CardLayout::new("HRTZ", VALUES).freely(),
+    CardLayout::new("DIRN", VALUES).freely(),
     CardLayout::new("CSTR", STRUCTURE_OF_FILE),
     CardLayout::new("CPDB", &[]),
     CardLayout::text("FILE"),

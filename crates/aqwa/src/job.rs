@@ -43,13 +43,15 @@ pub enum DeckOptionEffect {
     Acts,
     /// It asks for pages that are not printed: no result depends on it.
     Prints(&'static str),
-    /// It belongs to AQWA-LINE, which is not run here: no result depends on it.
+    /// It belongs to AQWA-LINE and changes no result here: what it asks for, and what windlass does.
     OfLine(&'static str),
     /// It would change results and is refused: the reason, and what to do instead.
     Refused(&'static str, &'static str),
 }
 
 use DeckOptionEffect::{Acts, OfLine, Prints, Refused};
+
+const NO_QTF: &str = "quadratic transfer functions, which are not computed: slow drift is that of Newman's approximation, by the mean drift";
 
 /// Options by name, with what becomes of them.
 pub const OPTIONS: &[(&str, DeckOptionEffect)] = &[
@@ -71,12 +73,20 @@ pub const OPTIONS: &[(&str, DeckOptionEffect)] = &[
     ("PRRP", Prints("response spectra")),
     ("PRTS", Prints("tension spectra")),
     ("PRDL", Prints("contents of the restart file")),
-    ("AHD1", OfLine("a database in text")),
-    ("AQTF", OfLine("quadratic transfer functions in text")),
-    ("CQTF", OfLine("quadratic transfer functions")),
-    ("MQTF", OfLine("quadratic transfer functions with directions")),
-    ("GOON", OfLine("errors of the mesh passed over")),
-    ("LHFR", OfLine("irregular frequencies removed")),
+    ("PRPT", Prints("potentials of the panels")),
+    ("PRPR", Prints("pressures of the panels")),
+    ("AHD1", OfLine("a database in text; the results are kept as NetCDF beside the answers")),
+    ("AQTF", OfLine(NO_QTF)),
+    ("CQTF", OfLine(NO_QTF)),
+    ("MQTF", OfLine(NO_QTF)),
+    (
+        "NQTF",
+        OfLine(
+            "mean drift by the near field; it is that of the waves far away, of several bodies by a surface around each",
+        ),
+    ),
+    ("GOON", OfLine("errors of the mesh passed over; they are errors here")),
+    ("LHFR", OfLine("irregular frequencies removed, which is always done")),
     ("CONV", Acts),
     (
         "NCNV",
@@ -129,10 +139,23 @@ impl JobDeck {
         self.options.iter().any(|(option, _)| option == name)
     }
 
-    /// Whether the motion is run (stage 5): not with the option DATA, which only checks the data.
+    /// Whether the analysis is run: the motion (stage 5), of LINE radiation and diffraction (stage 3). Not with the option DATA, which only checks the
+    /// data.
     pub fn runs(&self) -> bool {
         let (start, finish) = self.stages;
-        start <= 5 && finish >= 5 && !self.option("DATA")
+        let of_program = if self.program == Program::Line { finish >= 3 } else { start <= 5 && finish >= 5 };
+        of_program && !self.option("DATA")
+    }
+
+    /// Whether the decks of radiation and diffraction belong to the stages of this file, or to those before.
+    pub fn has_diffraction(&self) -> bool {
+        let (_, finish) = self.stages;
+        finish >= 3 && !self.option("DATA")
+    }
+
+    /// Whether all structures are fixed (FIXD on the JOB line of LINE).
+    pub fn is_fixed(&self) -> bool {
+        self.program == Program::Line && self.analysis == "FIXD"
     }
 
     /// Whether the cards of a deck stand in the file: decks 1 to 5 belong to stage 1, 6 to 8 to stage 2, the others to
@@ -277,9 +300,7 @@ fn report_option(name: &str, span: Span) -> Option<Box<Diagnostic>> {
     match OPTIONS.iter().find(|(known, _)| *known == name).map(|(_, effect)| *effect) {
         Some(Acts) => None,
         Some(Prints(what)) => Some(Diagnostic::remark(format!("{card}: {what}; no page is added or left out"), span)),
-        Some(OfLine(what)) => {
-            Some(Diagnostic::remark(format!("{card}: {what}; an option of LINE, without effect here"), span))
-        }
+        Some(OfLine(what)) => Some(Diagnostic::remark(format!("{card}: {what}"), span)),
         Some(Refused(why, help)) => Some(Diagnostic::error(format!("{card}: {why}"), span).help(help)),
         None => {
             let mut error = Diagnostic::error(format!("deck 0, OPTIONS: {name} is not known"), span)

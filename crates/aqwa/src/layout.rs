@@ -139,6 +139,8 @@ pub struct CardLayout {
     pub slots: &'static [Slot],
     /// Whether the columns from 11 on are text that the deck itself takes apart (deck 2).
     pub text: bool,
+    /// Whether that text is groups in brackets, behind which a remark may stand and go on past the last column.
+    pub has_brackets: bool,
     /// How it is answered.
     pub standing: CardSupport,
     /// How often it may come; once unless said otherwise.
@@ -148,27 +150,37 @@ pub struct CardLayout {
 impl CardLayout {
     /// A card whose columns are sure.
     pub const fn new(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        CardLayout { keyword, slots, text: false, standing: CardSupport::Sure, repeats: ONCE }
+        CardLayout { keyword, slots, text: false, has_brackets: false, standing: CardSupport::Sure, repeats: ONCE }
     }
 
     /// A card whose columns are assumed.
     pub const fn assume(keyword: &'static str, slots: &'static [Slot]) -> Self {
-        CardLayout { keyword, slots, text: false, standing: CardSupport::Assumed, repeats: ONCE }
+        CardLayout { standing: CardSupport::Assumed, ..CardLayout::new(keyword, slots) }
     }
 
     /// A card that is refused for a reason.
     pub const fn refuse(keyword: &'static str, reason: &'static str) -> Self {
-        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Refused(reason), repeats: ONCE }
+        CardLayout { standing: CardSupport::Refused(reason), ..CardLayout::text(keyword) }
     }
 
     /// A card that is passed over for a reason.
     pub const fn pass_over(keyword: &'static str, reason: &'static str) -> Self {
-        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Passed(reason), repeats: ONCE }
+        CardLayout { standing: CardSupport::Passed(reason), ..CardLayout::text(keyword) }
     }
 
     /// A card of text.
     pub const fn text(keyword: &'static str) -> Self {
-        CardLayout { keyword, slots: &[], text: true, standing: CardSupport::Sure, repeats: ONCE }
+        CardLayout { text: true, ..CardLayout::new(keyword, &[]) }
+    }
+
+    /// A card of groups in brackets.
+    pub const fn brackets(keyword: &'static str) -> Self {
+        CardLayout { has_brackets: true, ..CardLayout::text(keyword) }
+    }
+
+    /// Whether the groups of a card end before its last column, so that what goes on past it is a remark.
+    pub fn ends_in_remark(&self, line: &CardLine<'_>) -> bool {
+        self.has_brackets && line.columns(NAME_COLUMN, CARD_WIDTH).contains(')') && !line.text.ends_with(')')
     }
 
     /// The card may come any number of times.
@@ -221,7 +233,7 @@ impl CardLayout {
             name: String::new(),
             name_place: line.span(NAME_COLUMN, CARD_WIDTH),
         };
-        if line.is_cut() {
+        if line.is_cut() && !self.ends_in_remark(line) {
             let message = format!("{}: what stands in column {CARD_WIDTH} goes on past it", self.name_with_deck(deck));
             return Err(Diagnostic::error(message, line.span(CARD_WIDTH, CARD_WIDTH + 1))
                 .label(format!("a card ends with column {CARD_WIDTH}"))

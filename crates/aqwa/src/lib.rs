@@ -12,6 +12,7 @@
 //! | 0 | [`job::JobDeck`] | title, kind of run (DRIF spectrum, NAUT regular wave), stages |
 //! | 1 | [`nodes::NodeTable`] | points; a node of a structure moves with the body |
 //! | 2 | [`elements::StructureDeck`] | one body each: TUBE and STUB Morison members, PMAS weight, DISC plate, PBOY buoyancy |
+//! | 2 QPPL, TPPL | [`panels::DeckHull`] | its hull; G_PRESSURE with the panels, frequencies and directions of deck 6 |
 //! | 3, 4 | [`properties::MaterialCard`], [`properties::Geometry`] | sizes, densities and coefficients of the members and of tether elements |
 //! | 5 | [`properties::WaterAndGravity`] | depth, density, gravity of the environment |
 //! | 7 | [`hydrostatics::HydrostaticsDecks`] | linear stiffness of a body about (X, Y, ZCGE) with buoyancy BFEQ, as of a hydrodynamic database |
@@ -56,6 +57,7 @@ pub mod listing;
 pub mod mass;
 pub mod mooring;
 pub mod nodes;
+pub mod panels;
 pub mod printing;
 pub mod properties;
 pub mod reader;
@@ -163,13 +165,15 @@ impl Deck {
     }
 
     /// Position of the centre of gravity of a structure at the start: X, Y, Z, RX, RY, RZ (degrees). The place of deck 15,
-    /// else that of the structure as modelled.
+    /// else that of the structure as modelled, its water line (ZLWL) in the surface.
     pub fn start(&self, structure: &StructureDeck) -> [f64; 6] {
         let given = self.starts.iter().find(|start| start.structure == structure.number && !start.velocity);
         given.map_or_else(
             || {
                 let [x, y, z] = self.mass_properties(structure).centre;
-                [x, y, z, 0.0, 0.0, 0.0]
+                // the axes of deck 1 may lie elsewhere than the water line
+                let line = structure.waterline.map_or(0.0, |(height, _)| height);
+                [x, y, z - line, 0.0, 0.0, 0.0]
             },
             |start| start.values,
         )

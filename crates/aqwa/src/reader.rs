@@ -2,6 +2,7 @@
 
 use super::card::{CardLine, CardLines, Face};
 use super::layout::{CardLayout, CardRecord, CardSupport};
+use super::nodes;
 use super::remarks::Remarks;
 use super::repeats;
 use windlass_base::diagnostic::{Diagnostic, did_you_mean};
@@ -139,7 +140,8 @@ impl<'a> CardReader<'a> {
         let mut words = CardLine::words(line.columns(11, 80));
         let word = words.next()?;
         let (deck, name, structure) = parse_header(&word.to_ascii_uppercase())?;
-        if words.next().is_some() {
+        // behind the number of a structure its name may stand
+        if name != "ELM" && words.next().is_some() {
             return None;
         }
         let id = line.columns(5, 6).trim().to_string();
@@ -234,6 +236,7 @@ impl<'a> CardReader<'a> {
     /// The cards of a deck up to the one marked `END`.
     pub fn records(&mut self, deck: u8, label: &str, layouts: &'static [CardLayout]) -> Vec<CardRecord> {
         let mut list = Vec::new();
+        let mut layouts = layouts;
         let keyworded = !layouts.iter().any(|layout| layout.keyword.is_empty());
         loop {
             if self.next_header().is_some() || self.peek().is_none() {
@@ -255,7 +258,8 @@ impl<'a> CardReader<'a> {
                     continue;
                 }
             };
-            if line.overlong() && !line.is_cut() {
+            let remarked = layouts.iter().any(|layout| layout.keyword == face.keyword && layout.ends_in_remark(&line));
+            if line.overlong() && !line.is_cut() && !remarked {
                 self.remarks.add_once(&format!("overlong {deck}"), || {
                     Diagnostic::warning(
                         format!("{label}: a card is longer than 80 columns; the rest is not read"),
@@ -268,6 +272,9 @@ impl<'a> CardReader<'a> {
             }
             let last = face.last;
             list.extend(self.record(label, &line, &face, layouts));
+            if deck == 1 && face.keyword == nodes::WIDE_NUMBERS {
+                layouts = nodes::WIDE_LAYOUTS;
+            }
             if last {
                 break;
             }

@@ -151,6 +151,35 @@ impl WaveSolution {
         Some(potentials.into_iter().map(|of| of.into_iter().map(|potential| potential * factor).collect()).collect())
     }
 
+    /// The wetted panels of all bodies with their mirror images (m), counter-clockwise as seen from the water, a triangle with a corner twice: in the order
+    /// of [`WaveSolution::hull_pressures`].
+    pub fn hull_panels(&self) -> Vec<[Vector3<f64>; 4]> {
+        let of_image = |image: [f64; 2]| {
+            self.mesh.hull().iter().map(move |panel| {
+                let mut corners = panel.corners().map(|corner| mirrored(&corner, image));
+                if image[0] * image[1] < 0.0 {
+                    corners.reverse();
+                }
+                corners
+            })
+        };
+        self.mesh.mirrors().images().into_iter().flat_map(of_image).collect()
+    }
+
+    /// Dynamic pressures on the panels of the hulls (Pa/m), for a wave of amplitude 1 m from each of the headings with the motions of the bodies in it:
+    /// heading by heading, then panel by panel. None where the motions are not those of all headings.
+    pub fn hull_pressures(&self, motions: &[Vec<C>]) -> Option<Vec<Vec<C>>> {
+        let factor = C::new(0.0, self.wave.frequency * self.water.density);
+        if motions.len() != self.headings.len() {
+            return None;
+        }
+        let of_heading = |(heading, motions): (usize, &Vec<C>)| {
+            let (potential, _) = self.sent_out(heading, motions)?;
+            Some(potential.into_iter().map(|potential| potential * factor).collect())
+        };
+        motions.iter().enumerate().map(of_heading).collect()
+    }
+
     /// The mean drift of the bodies within a control surface, heading by heading; `motions` are those of all bodies for each heading (m/m,
     /// rad/m). None where the motions are not those of all headings, or the surface is not above the bottom or crosses a hull.
     ///

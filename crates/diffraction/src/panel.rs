@@ -1,11 +1,15 @@
 //! A flat panel: geometry, and the integrals of `1/r` over it.
 
 use nalgebra::{Matrix3, Vector3};
+use std::f64::consts::TAU;
 
 /// Distance, in longest diagonals of a panel, from which its integrals are those of its area and second moments.
 const FAR_DIAGONALS: f64 = 4.0;
 /// Points of the rule on a panel near another: two along each direction.
 const GAUSS_POINT: f64 = 0.577_350_269_189_625_8;
+
+/// A point nearer to the middle of a panel than this share of its diagonal is its middle.
+const MIDDLE_SHARE: f64 = 1e-6;
 
 /// A quadrilateral, or a triangle that repeats a corner; seen from the water its corners run counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,10 +75,16 @@ impl Panel {
         if distance2 > (FAR_DIAGONALS * self.diagonal).powi(2) {
             return self.far_rankine(&arm, distance2);
         }
-        triangles(&self.corners).iter().fold([0.0; 2], |[potential, angle], triangle| {
+        let [potential, angle] = triangles(&self.corners).iter().fold([0.0; 2], |[potential, angle], triangle| {
             let [p, a] = triangle_rankine(triangle, from);
             [potential + p, angle + a]
-        })
+        });
+        // corners of seven figures are not in one plane: the middle is beside one of the triangles by a hair, on this side or the other, and sees
+        // half of a sphere; on the panel there is no jump
+        if distance2 <= (MIDDLE_SHARE * self.diagonal).powi(2) {
+            return [potential, angle - TAU * (angle / TAU).round()];
+        }
+        [potential, angle]
     }
 
     /// The same by the first terms of the expansion about the centroid.
@@ -164,6 +174,23 @@ mod tests {
         let [potential, angle] = square().rankine(&Vector3::zeros());
         assert!((potential - 4.0 * (1.0 + SQRT_2).ln()).abs() < 1e-14, "{potential}");
         assert_eq!(angle, 0.0);
+    }
+
+    #[test]
+    fn panel_not_quite_plane_sees_nothing_of_itself() {
+        let corner = |x: f64, y: f64, z: f64| Vector3::new(x, y, z);
+        // a corner 1e-7 of the side above and below the plane of the others
+        for off in [1e-7, -1e-7] {
+            let panel = Panel::new([
+                corner(0.0, 0.0, 0.0),
+                corner(1.0, 0.0, 0.0),
+                corner(0.8, 1.0, off),
+                corner(0.2, 1.0, 0.0),
+            ]);
+            let panel = panel.unwrap();
+            let [_, angle] = panel.rankine(&panel.centroid);
+            assert!(angle.abs() < 1e-5, "{angle}");
+        }
     }
 
     #[test]

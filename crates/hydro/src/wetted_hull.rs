@@ -4,7 +4,7 @@ use crate::buoyancy::skin;
 use crate::hull::{Combination, Surface, pair_triangles};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass_base::pose::Pose;
-use windlass_model::{Body, ClassError, Model, Piece, WaveAction};
+use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
 
 /// A polygon of a face, counter-clockwise as seen from the water.
 type Polygon = Vec<Vector3<f64>>;
@@ -33,6 +33,8 @@ pub struct WettedHull {
     pub volume: f64,
     /// Names of the pieces it is of.
     pub pieces: Vec<String>,
+    /// Whether its polygons are the panels of the piece as they are, which a mesh keeps.
+    pub has_own_panels: bool,
 }
 
 /// Why there is no wetted hull.
@@ -61,6 +63,26 @@ pub enum WettedHullError {
     /// A piece that is no closed surface.
     #[error("{0}")]
     Piece(String),
+    /// A piece that keeps its panels beside another one.
+    #[error(
+        "{piece} of {body} has -OWN_PANELS, and {other} is of its hull too: panels are taken as they are of a hull of one piece"
+    )]
+    OwnPanels {
+        /// The body.
+        body: String,
+        /// The piece.
+        piece: String,
+        /// The other one.
+        other: String,
+    },
+    /// A piece without panels that should keep them.
+    #[error("{piece} of {body} has -OWN_PANELS and is not made of panels: PANEL records or a mesh file give them")]
+    NoOwnPanels {
+        /// The body.
+        body: String,
+        /// The piece.
+        piece: String,
+    },
     /// Pieces that cannot be united.
     #[error("the pieces of {body} cannot be made one hull: {why}")]
     Union {
@@ -78,6 +100,7 @@ impl WettedHull {
     /// No piece under water; an open piece or one of another permeability than 1; pieces that cannot be united.
     pub fn new(model: &Model, body: &Body, level: f64) -> Result<Self, WettedHullError> {
         let (mut surface, mut names): (Option<Surface>, Vec<String>) = (None, Vec::new());
+        let mut keeper: Option<(&Part, &Piece)> = None;
         for part in model.parts_of(body) {
             for piece in &part.pieces {
                 if !is_of_hull(piece) {
@@ -90,6 +113,9 @@ impl WettedHull {
                 let said = |error: ClassError| WettedHullError::Piece(error.to_string());
                 let Some(own) = skin(part, piece).map_err(said)? else { continue };
                 names.push(piece.name.clone());
+                if piece.own_panels {
+                    keeper = Some((part, piece));
+                }
                 surface = Some(match surface {
                     None => own,
                     Some(united) => united
@@ -99,8 +125,11 @@ impl WettedHull {
             }
         }
         let surface = surface.ok_or_else(|| WettedHullError::NoPieces(body.name.clone()))?;
-        let mut hull =
-            WettedHull::of_surface(&surface, &Pose::from_place(&body.position), body.position.turn[2], level);
+        let (pose, heading) = (Pose::from_place(&body.position), body.position.turn[2]);
+        let mut hull = match keeper {
+            None => WettedHull::of_surface(&surface, &pose, heading, level),
+            Some((part, piece)) => WettedHull::of_own_panels(body, part, piece, &names)?.placed(&pose, heading, level),
+        };
         if hull.polygons.is_empty() {
             return Err(WettedHullError::Dry(body.name.clone()));
         }
@@ -110,29 +139,48 @@ impl WettedHull {
 
     /// That of a closed surface in body axes, in a pose with a heading (rad).
     fn of_surface(surface: &Surface, pose: &Pose, heading: f64, level: f64) -> Self {
-        let tilt = Rotation3::from_axis_angle(&Vector3::z_axis(), -heading).matrix() * pose.axes;
-        let origin_height = pose.origin.z - level;
-        let placed: Vec<Vector3<f64>> =
-            surface.vertices.iter().map(|p| tilt * p + Vector3::new(0.0, 0.0, origin_height)).collect();
-        let extent = placed.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
-        let room = PLANE_SHARE * extent;
-        let corner = |n: &u32| placed.get(*n as usize).copied();
+        let corner = |n: &u32| surface.vertices.get(*n as usize).copied();
         let (parallelograms, triangles) = pair_triangles(surface);
         let faces = parallelograms.iter().map(|f| f.iter().filter_map(corner).collect::<Polygon>());
-        let faces = faces.chain(triangles.iter().map(|f| f.iter().filter_map(corner).collect()));
-        // what lies in the surface itself is dry
-        let wet = |face: &Polygon| face.iter().any(|p| p.z < -room);
-        let polygons: Vec<Polygon> =
-            faces.filter(wet).map(|face| below(&face, |p| p.z, room)).filter(|face| face.len() >= 3).collect();
-        let mirrors = [0, 1].map(|axis| is_mirrored(&polygons, axis, room));
-        let (mut area, mut volume) = (0.0, 0.0);
-        for polygon in &polygons {
-            let normal = area_vector(polygon);
-            area += normal.norm();
-            // the divergence of (0, 0, z), which vanishes in the water plane
-            volume += integral_of_height(polygon, &normal);
+        let polygons = faces.chain(triangles.iter().map(|f| f.iter().filter_map(corner).collect())).collect();
+        FacedHull { polygons, has_own_panels: false }.placed(pose, heading, level)
+    }
+
+    /// The panels of a closed piece as they are, in body axes, all of them turned where they look inward.
+    fn of_own_panels(body: &Body, part: &Part, piece: &Piece, names: &[String]) -> Result<FacedHull, WettedHullError> {
+        let (body, name) = (body.name.clone(), piece.name.clone());
+        if let Some(other) = names.iter().find(|other| **other != name) {
+            return Err(WettedHullError::OwnPanels { body, piece: name, other: other.clone() });
         }
-        WettedHull { polygons, axes: tilt.transpose(), origin_height, mirrors, area, volume, pieces: Vec::new() }
+        let Shape::Panels(panels) = piece.shape.with_displacement(&part.position) else {
+            return Err(WettedHullError::NoOwnPanels { body, piece: name });
+        };
+        let mut polygons: Vec<Polygon> =
+            panels.iter().map(|panel| panel.iter().map(|at| Vector3::from(*at)).collect()).collect();
+        let volume: f64 = polygons.iter().map(|face| integral_of_height(face, &area_vector(face))).sum();
+        if volume < 0.0 {
+            polygons.iter_mut().for_each(|face| face.reverse());
+        }
+        Ok(FacedHull { polygons, has_own_panels: true })
+    }
+
+    /// The longest side of its faces (m): of own panels their size.
+    pub fn longest_side(&self) -> f64 {
+        let side = |face: &Polygon| {
+            let next = face.iter().cycle().skip(1);
+            face.iter().zip(next).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
+        };
+        self.polygons.iter().map(side).fold(0.0, f64::max)
+    }
+
+    /// How deep it reaches (m).
+    pub fn draught(&self) -> f64 {
+        self.polygons.iter().flatten().fold(0.0, |most: f64, at| most.max(-at.z))
+    }
+
+    /// How many faces it has: of own panels their number.
+    pub fn face_count(&self) -> usize {
+        self.polygons.len()
     }
 
     /// Quadrilaterals with sides of about a size (m) at most, a triangle repeating a corner: of the part at positive coordinates where
@@ -161,6 +209,38 @@ impl WettedHull {
             }
         }
         made
+    }
+}
+
+/// The faces of a hull in body axes, counter-clockwise as seen from outside.
+struct FacedHull {
+    polygons: Vec<Polygon>,
+    has_own_panels: bool,
+}
+
+impl FacedHull {
+    /// What of it is below a water level, in a pose with a heading (rad).
+    fn placed(self, pose: &Pose, heading: f64, level: f64) -> WettedHull {
+        let tilt = Rotation3::from_axis_angle(&Vector3::z_axis(), -heading).matrix() * pose.axes;
+        let origin_height = pose.origin.z - level;
+        let place = |p: &Vector3<f64>| tilt * p + Vector3::new(0.0, 0.0, origin_height);
+        let placed: Vec<Polygon> = self.polygons.iter().map(|face| face.iter().map(place).collect()).collect();
+        let extent = placed.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
+        let room = PLANE_SHARE * extent;
+        // what lies in the surface itself is dry
+        let wet = |face: &&Polygon| face.iter().any(|p| p.z < -room);
+        let polygons: Vec<Polygon> =
+            placed.iter().filter(wet).map(|face| below(face, |p| p.z, room)).filter(|face| face.len() >= 3).collect();
+        let mirrors = [0, 1].map(|axis| is_mirrored(&polygons, axis, room));
+        let (mut area, mut volume) = (0.0, 0.0);
+        for polygon in &polygons {
+            let normal = area_vector(polygon);
+            area += normal.norm();
+            // the divergence of (0, 0, z), which vanishes in the water plane
+            volume += integral_of_height(polygon, &normal);
+        }
+        let (axes, has_own_panels) = (tilt.transpose(), self.has_own_panels);
+        WettedHull { polygons, axes, origin_height, mirrors, area, volume, pieces: Vec::new(), has_own_panels }
     }
 }
 

@@ -74,6 +74,8 @@ pub struct Piece {
     pub category: Option<String>,
     /// What waves do to it.
     pub waves: WaveAction,
+    /// Whether its panels are those of radiation and diffraction as they are.
+    pub own_panels: bool,
     /// Factor of its eddy damping of roll; zero of none.
     pub eddy_damping: f64,
     /// Options that do not act, as given.

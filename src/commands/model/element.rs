@@ -424,6 +424,7 @@ fn insert(
             element: Some(element.clone()),
             category: Some(category.clone()),
             waves: WaveAction::ByForm,
+            own_panels: false,
             eddy_damping: 0.0,
             kept: Vec::new(),
             unmodelled: Vec::new(),

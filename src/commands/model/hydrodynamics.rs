@@ -9,12 +9,14 @@ use crate::commands::model::database;
 use crate::commands::model::panel_drift;
 use crate::commands::model::panel_forces::{self, PanelRequest};
 use crate::commands::output::disposition::write_file;
+use crate::commands::settings::device::existing;
 use crate::commands::status::database_table;
 use crate::commands::{Call, Command, Effect, Job, Menu};
 use crate::report::disposition::Disposition;
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
+use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::span::Span;
@@ -124,6 +126,11 @@ const CHECK: OptionSpec = OptionSpec::ours(
     &[],
     "shows what the panels and the results are worth, and the change of every result with twice as many panels",
 );
+const KEPT: OptionSpec = OptionSpec::ours(
+    "-KEPT",
+    &[ValueSpec::new("FILE", Kind::File, "NetCDF file; looked for where it says, then beside the script")],
+    "results of another job, taken where they are of the same mesh, water, headings, periods and motions",
+);
 const MD_TYPE: OptionSpec = OptionSpec::new(
     "-MD_TYPE",
     &[ValueSpec::new("TYPE", Kind::Text, "FORMULAE or SEMI")],
@@ -147,7 +154,7 @@ const MAX_DIST: OptionSpec = OptionSpec::new(
 static PRESSURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MEAN_DRIFT, CHECK, MAX_DIST],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MEAN_DRIFT, CHECK, KEPT, MAX_DIST],
     detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
              are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
              Mirror planes of a single hull are found and used. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
@@ -350,8 +357,10 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             depth: length(&WATER_DEPTH),
             has_drift: names.len() == 1 || args.has(&MEAN_DRIFT),
             is_checked: args.has(&CHECK),
+            kept: None,
             span,
         };
+        let request = PanelRequest { kept: kept_of(job, args), ..request };
         panel_forces::compute(job, &names, &request)?;
         return Ok(Effect::Done);
     }
@@ -371,6 +380,19 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         ),
     );
     Ok(Effect::Done)
+}
+
+/// The file of results of another job; where there is none that is said.
+fn kept_of(job: &mut Job, args: &Args) -> Option<PathBuf> {
+    let given = args.option(&KEPT)?;
+    let name = given.first_word()?;
+    match existing(job, name, given.span) {
+        Ok(path) => Some(path),
+        Err(error) => {
+            job.remark(format!("-KEPT: {}; what it would hold is computed", error.message), given.span);
+            None
+        }
+    }
 }
 
 fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
@@ -410,6 +432,7 @@ fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
         depth: length(&WATER_DEPTH).or(data.depth),
         has_drift: true,
         is_checked: false,
+        kept: None,
         span,
     };
     panel_drift::compute(job, &name, &data, &request)?;
@@ -417,7 +440,7 @@ fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
 }
 
 /// Where waves go to (rad), growing, of headings that they come from.
-fn toward(list: Vec<f64>) -> Vec<f64> {
+pub(super) fn toward(list: Vec<f64>) -> Vec<f64> {
     let mut list: Vec<f64> = list.iter().map(|from| (from + PI).rem_euclid(TAU)).collect();
     list.sort_by(f64::total_cmp);
     list.dedup_by(|a, b| (*a - *b).abs() < 1e-9);

@@ -31,4 +31,5 @@ pub(crate) mod shapes;
 pub(crate) mod surface;
 pub(crate) mod t_pressure;
 pub(crate) mod tether_ends;
+pub(crate) mod wave_picture;
 pub(crate) mod weight;

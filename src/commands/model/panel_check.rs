@@ -58,6 +58,7 @@ pub fn check(
         depth: request.depth,
         has_drift: request.has_drift,
         is_checked: false,
+        kept: None,
         span,
     };
     let finer_meshed = match MeshedBodies::new(&job.model, names, &finer) {

@@ -125,12 +125,7 @@ pub fn of_frequency(
     waves: &WaveSolution,
     headings: &[f64],
 ) -> Result<Option<BodyDrift>, String> {
-    let count = MOTIONS * meshed.bodies.len();
-    let motions = match source {
-        DriftSource::Motions(linear) => motions(linear, meshed, &waves.forces, headings)?,
-        DriftSource::Fixed => vec![vec![C::default(); count]; headings.len()],
-        DriftSource::None(_) => return Ok(None),
-    };
+    let Some(motions) = motions_in_waves(source, meshed, &waves.forces, headings)? else { return Ok(None) };
     let far: Vec<FarFieldDrift> =
         motions.iter().enumerate().map(|(heading, motions)| at_heading(waves, heading, motions)).collect();
     if meshed.bodies.len() == 1 {
@@ -151,6 +146,24 @@ pub fn of_frequency(
         }
     }
     Ok(Some(BodyDrift { values, sums }))
+}
+
+/// Motions of the bodies in waves of unit amplitude, heading by heading, six a body in axes of the group, phases to its origin; none where there is no
+/// source.
+///
+/// # Errors
+/// Motions that have no bound, in words.
+pub fn motions_in_waves(
+    source: &DriftSource,
+    meshed: &MeshedBodies,
+    forces: &FrequencyForces,
+    headings: &[f64],
+) -> Result<Option<Vec<Vec<C>>>, String> {
+    match source {
+        DriftSource::Motions(linear) => motions(linear, meshed, forces, headings).map(Some),
+        DriftSource::Fixed => Ok(Some(vec![vec![C::default(); MOTIONS * meshed.bodies.len()]; headings.len()])),
+        DriftSource::None(_) => Ok(None),
+    }
 }
 
 /// The drift of a body alone, heading by heading.

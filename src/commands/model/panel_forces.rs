@@ -12,6 +12,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::{Rotation3, Vector3};
 use sha2::{Digest, Sha256};
 use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -43,6 +44,10 @@ const USUAL_PANELS_A_WAVE: f64 = 16.0;
 const USUAL_FREQUENCIES: [f64; 3] = [0.1, 0.05, 2.0];
 /// Exciting forces by pressure and by Haskind's relation that differ by more than this share of the largest are warned of.
 const POOR_EXCITATION: f64 = 0.05;
+/// A bottom nearer to the keel than this share of the draught is at it: its image lies on the panels.
+const LEAST_CLEARANCE: f64 = 1e-3;
+const HULL_HELP: &str =
+    "BLOCK, PGEN, PANEL or a mesh file give closed pieces; &INSTATE -LOCATE or &EQUI puts the body at its draught";
 /// How the source of a database begins that was made here.
 pub const SOURCE: &str = "G_PRESSURE";
 
@@ -63,6 +68,8 @@ pub struct PanelRequest {
     pub has_drift: bool,
     /// Whether a check of the results follows.
     pub is_checked: bool,
+    /// A file of results of another job.
+    pub kept: Option<PathBuf>,
     /// Where the record stands.
     pub span: Span,
 }
@@ -128,7 +135,14 @@ impl MeshedBodies {
         for name in names {
             let key = Model::key(name);
             let Some(body) = model.bodies.get(&key) else { continue };
-            let hull = WettedHull::new(model, body, around.tide).map_err(|error| wrong(error.to_string()))?;
+            let hull =
+                WettedHull::new(model, body, around.tide).map_err(|error| wrong(error.to_string()).help(HULL_HELP))?;
+            let draught = hull.draught();
+            if let Some(depth) = depth.filter(|depth| *depth <= draught * (1.0 + LEAST_CLEARANCE)) {
+                let text = format!("{name}: the water is {depth} m deep, and the hull reaches down to {draught:.4} m");
+                return Err(wrong(text)
+                    .help("-DEPTH gives another depth; &INSTATE -LOCATE or &EQUI puts the body where it floats"));
+            }
             hulls.push((key, body, hull));
         }
         let Some((_, first, _)) = hulls.first() else { return Err(wrong("there is no body to mesh".into())) };
@@ -149,10 +163,24 @@ impl MeshedBodies {
         };
         let mirrors = MirrorPlanes { x: is_plane(0), y: is_plane(1) };
         let images = mirrors.images().len() as f64;
-        let area: f64 = hulls.iter().map(|(_, _, hull)| hull.area).sum();
-        let size = request.size.unwrap_or_else(|| (area / (USUAL_PANELS * hulls.len() as f64)).sqrt());
+        // a hull of own panels is divided by -PANEL alone
+        let (own, others): (Vec<&WettedHull>, Vec<&WettedHull>) =
+            hulls.iter().map(|(_, _, hull)| hull).partition(|hull| hull.has_own_panels);
+        let area: f64 = others.iter().map(|hull| hull.area).sum();
+        let usual = (area / (USUAL_PANELS * others.len().max(1) as f64)).sqrt();
+        let longest = own.iter().map(|hull| hull.longest_side()).fold(0.0, f64::max);
+        let size = request.size.unwrap_or_else(|| usual.max(longest));
+        let of_hull = |hull: &WettedHull| match request.size {
+            Some(size) => size,
+            None if hull.has_own_panels => hull.longest_side(),
+            None => usual,
+        };
         // before they are made; the lid has about as many as its part of the area
-        let expected = area / (size * size) / images;
+        let least = |hull: &WettedHull| {
+            let divided = hull.area / of_hull(hull).powi(2);
+            if hull.has_own_panels { divided.max(hull.face_count() as f64) } else { divided }
+        };
+        let expected = hulls.iter().map(|(_, _, hull)| least(hull)).sum::<f64>() / images;
         let pairs = expected * expected * images;
         if !(expected <= MAX_PANELS as f64 && pairs * BYTES_A_PAIR as f64 <= MAX_BYTES as f64) {
             let text = format!(
@@ -171,7 +199,8 @@ impl MeshedBodies {
             let [x, y] = if alone { [0.0; 2] } else { shift_of(body) };
             let shift = Vector3::new(x, y, 0.0);
             let axes = Rotation3::from_axis_angle(&Vector3::z_axis(), turn);
-            let mut quads = hull.panels(size, [mirrors.x, mirrors.y]);
+            // of panels larger than the hull one a face is left
+            let mut quads = hull.panels(of_hull(&hull).min(hull.longest_side()), [mirrors.x, mirrors.y]);
             if !alone {
                 for corner in quads.iter_mut().flatten() {
                     *corner = axes * *corner + shift;
@@ -221,7 +250,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 1));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 2));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size].into_iter());
@@ -317,21 +346,27 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     let mut drift = panel_drift::source(&job.model, &meshed, request.has_drift);
     let key = meshed.key(&request.headings, &drift);
     let file = format!("{}.nc", names.join("_"));
-    let kept = kept_file(job, &file, &key);
+    let own = kept_file(job, &file, &key).map(|bytes| (job.output.folder.folder.join(&file), bytes));
+    let other = || request.kept.as_ref().and_then(|path| Some((path.clone(), matching_file(path, &key)?)));
+    let (read_from, kept) = own.or_else(other).unzip();
     if let Some(why) = kept.as_ref().and_then(|bytes| capytaine::attribute(bytes, NO_DRIFT)) {
         drift = DriftSource::None(why);
     }
-    let is_kept = kept.is_some();
     let bytes = match kept {
         Some(bytes) => bytes,
         None => solve(job, &meshed, &mut drift, request, &key)?,
     };
     let databases = meshed.databases(&bytes).map_err(wrong)?;
     let quality = Quality::read(&bytes, &meshed).map_err(|error| wrong(error.to_string()))?;
-    if is_kept {
-        job.say(&format!("read {}: of the same mesh and settings", job.output.folder.folder.join(&file).display()));
-    } else {
-        keep_file(job, &file, &bytes, span);
+    match &read_from {
+        Some(path) => job.say(&format!("read {}: of the same mesh and settings", path.display())),
+        None => {
+            if let Some(path) = &request.kept {
+                let text = format!("{} is of another mesh or other settings: the results are computed", path.display());
+                job.remark(text, span);
+            }
+            keep_file(job, &file, &bytes, span);
+        }
     }
     let made = databases.clone();
     let table = report(&meshed, &quality, &drift.said(&meshed));
@@ -374,7 +409,11 @@ pub fn solve_bodies(job: &Job, meshed: &MeshedBodies, request: &PanelRequest) ->
 
 /// The bytes of a file of an earlier run that has a key.
 fn kept_file(job: &Job, file: &str, key: &str) -> Option<Vec<u8>> {
-    let path = job.output.folder.resolve(file).ok()?;
+    matching_file(&job.output.folder.resolve(file).ok()?, key)
+}
+
+/// The bytes of a file of results that has a key.
+fn matching_file(path: &Path, key: &str) -> Option<Vec<u8>> {
     let size = path.symlink_metadata().ok().filter(|data| data.is_file())?.len();
     if size > LARGEST_FILE {
         return None;

@@ -109,13 +109,20 @@ const COLOR: OptionSpec =
 const TEXTURE: OptionSpec =
     OptionSpec::new("-TEXTURE", LOOK, "texture and its scales, in pictures").repeating(1).without_effect();
 
+const OWN_PANELS: OptionSpec = OptionSpec::ours(
+    "-OWN_PANELS",
+    &[],
+    "G_PRESSURE takes its panels as they are: cut at the water, divided by -PANEL alone; it is the only hull piece of its body",
+);
+
 /// What every piece takes, however its surface is given.
-pub const OPTIONS: [OptionSpec; 12] = [
+pub const OPTIONS: [OptionSpec; 13] = [
     PERMEABILITY,
     CS_WIND,
     CS_CURRENT,
     OBSTACLE,
     DIFTYPE,
+    OWN_PANELS,
     CS_VELOCITY,
     DD_MULT,
     AMASS,
@@ -176,11 +183,11 @@ static BY_COORDINATES: CommandSpec = CommandSpec {
 fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let [command, rest @ ..] = call.words else { return Ok(Effect::Done) };
     let vertices = match job.menu() {
-        Menu::Mesh(vertices) if !vertices.is_empty() => Some(vertices.clone()),
+        Menu::Mesh(vertices) if !vertices.is_empty() => Some(vertices),
         _ => None,
     };
     let by_points = vertices.is_some() || rest.first().is_some_and(|w| w.kind == Lex::Point);
-    let spec = match (&vertices, by_points) {
+    let spec = match (vertices, by_points) {
         (Some(_), _) => &BY_VERTICES,
         (None, true) => &BY_POINTS,
         (None, false) => &BY_COORDINATES,
@@ -195,8 +202,8 @@ fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
     {
         return Err(Diagnostic::error(format!("piece {name} is given by sections already"), command.span));
     }
-    let found = job.model.piece(&name).map(|(part, piece)| (part.clone(), piece.shape.clone()));
-    let Some((part, Shape::Panels(_))) = found else {
+    let found = job.model.piece(&name).filter(|(_, piece)| matches!(piece.shape, Shape::Panels(_)));
+    let Some((part, _)) = found else {
         return Err(Diagnostic::error(format!("piece {name} is not made of panels"), command.span));
     };
     let corners: Vec<Position> = if let Some(vertices) = vertices {
@@ -211,7 +218,7 @@ fn panel(job: &mut Job, call: &Call) -> Outcome<Effect> {
         args.data.iter().map(named).collect::<Outcome<_>>()?
     } else if by_points {
         let points = args.data.iter().filter_map(|v| Some((v.word()?, v.span)));
-        points.map(|(word, span)| point_in_part(&job.model, word, &part, span)).collect::<Outcome<_>>()?
+        points.map(|(word, span)| point_in_part(&job.model, word, part, span)).collect::<Outcome<_>>()?
     } else {
         let corner = const { BY_COORDINATES.numbers(["X", "Y", "Z"]) };
         args.groups_from(const { BY_COORDINATES.number("X") }).map(|group| group.numbers_or_zero(corner)).collect()
@@ -315,7 +322,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
             find(&model.curves, word, "curve", value.span)?;
         }
     }
-    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE, TANAKA];
+    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE, OWN_PANELS, TANAKA];
     let chosen = args.option_choice(&DIFTYPE, const { DIFTYPE.choice("TYPE") });
     let is_strip = chosen == Some(DiffractionType::Strip);
     let kept: Vec<_> =
@@ -366,6 +373,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         element: None,
         category,
         waves,
+        own_panels: args.has(&OWN_PANELS),
         eddy_damping: args.option_number(&TANAKA).unwrap_or(0.0),
         kept,
         unmodelled,

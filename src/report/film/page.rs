@@ -3,7 +3,7 @@
 use crate::report::embedded::{self, doubles, list, number, object, quote_base64, shorts, singles, string, wholes};
 use nalgebra::{Rotation3, UnitQuaternion};
 use windlass_base::units::{Dim, UnitSystem};
-use windlass_solve::film::{Actor, ConnectorState, Film, FilmWaves, Strand};
+use windlass_solve::film::{Actor, ConnectorState, Film, FilmWaves, Strand, WaveField};
 
 /// The page without its data, and what is put into it.
 const PAGE_PARTS: [(&str, &str); 5] = [
@@ -35,6 +35,8 @@ fn data(film: &Film, title: &str, units: UnitSystem) -> String {
         film.strands.iter().flat_map(of).copied().filter(|v| v.is_finite()).fold(0.0, f64::max)
     };
     let (tension, share) = (largest(|s| &s.tensions), largest(|s| &s.shares));
+    let pressure =
+        film.actors.iter().flat_map(|actor| &actor.pressures).map(|[re, im]| re.hypot(*im)).fold(0.0, f64::max);
     let unit = |dim: Dim| object([("name", string(&dim.label(units))), ("per", number(dim.from_si(1.0, units)))]);
     let [low, high] = film.extent;
     let triple = |at: [f64; 3]| list(at.map(number));
@@ -53,6 +55,8 @@ fn data(film: &Film, title: &str, units: UnitSystem) -> String {
         ("lines", list(film.strands.iter().map(|s| strand(s, film.extent, (tension, share))))),
         ("anchors", list(film.anchors.iter().map(|(name, at)| object([("name", string(name)), ("at", triple(*at))])))),
         ("sea", film.waves.as_ref().map_or("null".into(), sea)),
+        ("field", film.field.as_ref().map_or("null".into(), field)),
+        ("pressure", number(pressure)),
         ("notes", list(film.notes.iter().map(|n| string(n)))),
     ])
 }
@@ -71,6 +75,7 @@ fn actor(actor: &Actor) -> String {
         ("triangles", wholes(solid.triangles.iter().flatten().copied())),
         ("edges", wholes(solid.edges.iter().flatten().copied())),
         ("poses", singles(actor.poses.iter().flat_map(pose))),
+        ("pressures", singles(actor.pressures.iter().flatten().copied())),
     ])
 }
 
@@ -89,6 +94,17 @@ fn strand(strand: &Strand, [low, high]: [[f64; 3]; 2], (tension, share): (f64, f
         ("tensions", shorts(strand.tensions.iter().map(|t| step(*t, 0.0, tension)))),
         ("shares", shorts(strand.shares.iter().map(|t| step(*t, 0.0, share)))),
         ("states", quote_base64(strand.states.iter().map(state))),
+    ])
+}
+
+/// Within a body there is no water: no number, which JSON has not.
+fn field(field: &WaveField) -> String {
+    object([
+        ("low", list(field.low.map(number))),
+        ("step", number(field.step)),
+        ("columns", field.columns.to_string()),
+        ("frequency", number(field.frequency)),
+        ("values", singles(field.values.iter().flatten().copied())),
     ])
 }
 

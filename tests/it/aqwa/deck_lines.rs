@@ -343,7 +343,7 @@ fn job_without_coefficients_of_its_hull_is_an_error() {
     });
     assert!(found.is_some_and(|e| e.span.is_some() && e.help[0].contains("AHD1")), "{list:?}");
     let list = records(&hemisphere("LINE", &BUT_HEAVE, STILL)).unwrap_err();
-    assert!(list[0].message.starts_with("deck 0: LINE is the diffraction analysis"), "{list:?}");
+    assert!(list[0].message.starts_with("deck 0: LINE is the diffraction of waves by panels"), "{list:?}");
 }
 
 /// The deck with more nodes.

@@ -5,6 +5,7 @@
 //! digits that read back as they are.
 
 mod articulations;
+mod diffraction;
 mod environment;
 mod lines;
 mod model;
@@ -165,6 +166,7 @@ fn model(deck: &Deck, units: &super::units::Units, out: &mut Script) {
     for structure in &deck.structures {
         model::structure(deck, structure, out);
     }
+    diffraction::diffraction(deck, out);
     model::starts(deck, out);
     tethers::tethers(deck, out);
     lines::lines(deck, out);

@@ -1,9 +1,11 @@
 //! Structures as bodies: decks 1 to 4, 7, 12, 15 and 17.
 
+use super::diffraction;
 use super::record_writer::{Script, difference, number, numbers, round_value};
 use crate::Deck;
 use crate::elements::{ElementShape, StructureDeck, StructureElement};
 use crate::hydrostatics::{HydrostaticsDecks, SixBySix};
+use crate::job::Program;
 use crate::mass::MassProperties;
 use nalgebra::Matrix6;
 use windlass_base::diagnostic::Diagnostic;
@@ -104,7 +106,7 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     let index = deck.structures.iter().position(|s| s.number == of.number);
     let known = index.and_then(|index| deck.hydrostatics.get(index));
     if let Some(known) = known {
-        hydrostatics(of, known, nominal, out);
+        hydrostatics(deck, of, known, nominal, out);
         if !nominal {
             constant_matrices(deck, of, known, out);
         }
@@ -112,6 +114,7 @@ pub(super) fn structure(deck: &Deck, of: &StructureDeck, out: &mut Script) {
     if let Some((name, span)) = known.and_then(|known| known.database.as_ref()) {
         database(deck, of, name, *span, out);
     }
+    diffraction::hull(deck, of, &mass, out);
     out.card(&header, of.span);
     tubes(deck, of, out);
 }
@@ -168,6 +171,9 @@ fn fixed_dof_option(deck: &Deck, of: &StructureDeck, nominal: bool, out: &mut Sc
     if nominal {
         let text = "a towed tether runs by itself: its nominal vessel is held where it is";
         out.note(&format!("deck 2, ELM{}", of.number), of.span, text);
+        return format!(" -IGNORE {}", DOFS.join(" "));
+    }
+    if deck.job.is_fixed() || (deck.job.program == Program::Line && of.fixed.is_some()) {
         return format!(" -IGNORE {}", DOFS.join(" "));
     }
     let given: Vec<_> = deck.held.iter().filter(|held| held.structure.value == of.number).collect();
@@ -237,7 +243,7 @@ fn constant_matrices(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks,
     }
 }
 
-fn hydrostatics(of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
+fn hydrostatics(deck: &Deck, of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, out: &mut Script) {
     if !nominal {
         let of_drift = "one matrix acts at all frequencies here: FIAM and FIDP of deck 7 give it";
         if known.drift_added_mass.is_some() {
@@ -266,6 +272,11 @@ fn hydrostatics(of: &StructureDeck, known: &HydrostaticsDecks, nominal: bool, ou
     if !nominal && of.elements.iter().any(|element| element.shape == ElementShape::Tube) {
         let help = "its tubes displace water themselves; leave out LSTF, or the tubes";
         refuse_card(known, "LSTF", "a stiffness of a structure of tubes", help, out);
+        return;
+    }
+    if !nominal && deck.database(of).is_none() && of.hull_elements().next().is_some() {
+        let help = "its panels displace water themselves; leave out LSTF, or the panels and give FILE";
+        refuse_card(known, "LSTF", "a stiffness of a structure of panels", help, out);
         return;
     }
     let stiffness = sum(known.stiffness, known.added_stiffness);

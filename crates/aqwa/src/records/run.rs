@@ -1,5 +1,6 @@
 //! What a deck runs and prints: decks 0, 14, 16, 17 and 18.
 
+use super::diffraction;
 use super::environment::{current_span, spectrum};
 use super::lines;
 use super::model::{body, point};
@@ -71,7 +72,7 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
             say_what_is_of_runs(deck, out);
             out.card("deck 0, JOB", deck.job.span);
         }
-        Program::Line => {}
+        Program::Line => diffraction::refuse_without_panels(deck, out),
     }
     match (deck.job.program, deck.mooring.tethers.is_empty()) {
         (Program::Drift | Program::Naut, false) => write_tether_run(deck, out),
@@ -93,11 +94,7 @@ pub(super) fn motion(deck: &Deck, out: &mut Script) {
             Diagnostic::error("deck 0: tethers are run in time, with DRIF or NAUT", deck.job.span)
                 .label("FER is the frequency domain"),
         ),
-        (Program::Line, _) => out.refuse(
-            Diagnostic::error("deck 0: LINE is the diffraction analysis, for which there is no solver here", deck.job.span)
-                .label("LIBR, FER, DRIF or NAUT belongs here")
-                .help("run it in AQWA with OPTIONS AHD1 END: FILE NAME.AH1 in deck 6 or 7, or DATABASE -AQWA of the model, reads what it writes"),
-        ),
+        (Program::Line, _) => diffraction::results(deck, out),
     }
 }
 
@@ -162,7 +159,7 @@ fn wave_loads(deck: &Deck, out: &mut Script) {
     }
     for structure in &deck.structures {
         let has_tubes = structure.elements.iter().any(|element| element.shape == ElementShape::Tube);
-        if has_tubes || deck.database(structure).is_some() {
+        if has_tubes || deck.database(structure).is_some() || diffraction::is_computed(deck, structure) {
             continue;
         }
         let number = structure.number;

@@ -27,6 +27,7 @@ fn model(fraction: f64) -> Model {
         element: None,
         category: None,
         waves: WaveAction::ByForm,
+        own_panels: false,
         eddy_damping: 0.0,
         kept: Vec::new(),
         unmodelled: Vec::new(),

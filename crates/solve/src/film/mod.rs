@@ -55,6 +55,24 @@ pub struct Actor {
     pub solid: FilmSolid,
     /// Where it stands at every instant.
     pub poses: Vec<Pose>,
+    /// Of a body in a regular wave: real and imaginary part of the pressure on each triangle, over that of a column of water of the wave's amplitude;
+    /// empty of others.
+    pub pressures: Vec<[f64; 2]>,
+}
+
+/// The water about bodies in a regular wave, on a grid: the elevation is `Re(value exp(-i omega t))`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WaveField {
+    /// x and y of its first point (m).
+    pub low: [f64; 2],
+    /// Distance of its points (m).
+    pub step: f64,
+    /// Points along x.
+    pub columns: usize,
+    /// Real and imaginary parts (m), row by row from the lowest y; not finite within the bodies.
+    pub values: Vec<[f64; 2]>,
+    /// Frequency (rad/s).
+    pub frequency: f64,
 }
 
 /// A run made ready to be shown.
@@ -74,6 +92,8 @@ pub struct Film {
     pub bottom: Option<f64>,
     /// The waves.
     pub waves: Option<FilmWaves>,
+    /// The water about bodies in a regular wave, in place of the waves.
+    pub field: Option<WaveField>,
     /// Corners of a box about all that is shown (m).
     pub extent: [Position; 2],
     /// What was left out or thinned, a sentence each.
@@ -176,7 +196,7 @@ impl Film {
             }
             triangles += solid.triangles.len();
             let poses = poses.get_mut(*index).map(std::mem::take).unwrap_or_default();
-            self.actors.push(Actor { name: name.clone(), junction, solid, poses });
+            self.actors.push(Actor { name: name.clone(), junction, solid, poses, pressures: Vec::new() });
         }
     }
 
