@@ -45,7 +45,8 @@ use model::{
 pub use output::animate::DEFAULT_LINE_POINTS as FILM_LINE_POINTS;
 pub use output::buildg::take as take_row;
 use output::{
-    add_column, animate, buildg, disposition, message, picture, plot, report_menu, result, series, statistic, store,
+    add_column, animate, buildg, disposition, message, moordyn_deck, picture, plot, report_menu, result, series,
+    statistic, store,
 };
 use post::{code_check, frequency_equations, frequency_posts, frequency_statistics, rep_select};
 pub(crate) use settings::device::{existing, within_check};
@@ -297,6 +298,7 @@ static LISTED: &[&Command] = &[
     &disposition::VLIST,
     &disposition::VIEW,
     &store::STORE,
+    &moordyn_deck::STORE_DECK,
     &plot::PLOT,
     &statistic::STATISTIC,
     &disposition::SET_VARIABLE,

@@ -91,6 +91,7 @@ mod floating {
     mod hydrostatics_menu;
     mod members;
     mod moordyn_decks;
+    mod moordyn_written;
     mod moorpy_equilibrium;
     mod moses_blocks;
     mod moses_hulls;

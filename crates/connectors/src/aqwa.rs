@@ -4,6 +4,7 @@
 //! Source: [AQWA-CONN 5.8.3.1 and 5.8.3.2]; defaults of EA, maximum tension and coefficients: [AQWA-REF deck 14].
 
 use super::dynamic_line::{BreakingStrength, DynamicLine, JointMass, LinePart, Seabed, description};
+use super::line_properties;
 use super::mooring::{Mooring, line_error, no_other_end};
 use super::options::aqwa;
 use super::per_line::PerLineOptions;
@@ -19,8 +20,9 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_line_dynamics::{self as rod, TensionLaw};
 use windlass_model::{
-    AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
-    LengthClass, LineModel, Placement, SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
+    AnchoredClass, AttachedMass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement,
+    DynamicLineClass, LengthClass, LineModel, LineProperties, Placement, SegmentedClass, StaticLineClass, StaticSeabed,
+    Surroundings,
 };
 
 /// The class type CATENARY: an AQWA catenary section with the joint at its end.
@@ -300,6 +302,23 @@ impl SegmentedClass for CatenaryClass {
         }
         Ok(())
     }
+
+    fn line_properties(&self, around: &Surroundings, _: bool) -> Result<LineProperties, ClassError> {
+        let slope = Some(self.slope);
+        let seabed = line_properties::seabed(&Seabed { depth: self.depth, slope, ..Seabed::default() })?;
+        let made = |section: &CatenarySection| {
+            let mut made =
+                line_properties::segment(&section.part(1, around.water_density), None, around.water_density)?;
+            // a joint given by its net weight or lift alone
+            if let (Some((_, net)), None) = (section.joint, section.joint_mass) {
+                let (mass, volume) = if net > 0.0 { (net, 0.0) } else { (0.0, -net / around.water_density) };
+                made.attached = Some(AttachedMass { mass, volume, ..AttachedMass::default() });
+            }
+            Ok(made)
+        };
+        let segments = self.sections.iter().map(made).collect::<Result<_, ClassError>>()?;
+        Ok(LineProperties { segments, seabed: Some(seabed) })
+    }
 }
 
 impl StaticLineClass for CatenaryClass {
@@ -351,6 +370,36 @@ impl StaticLineClass for CatenaryClass {
     }
 }
 
+impl CatenarySection {
+    /// The part of a dynamic line, in water of a density (kg/m3).
+    fn part(&self, elements: usize, density: f64) -> LinePart {
+        LinePart {
+            segment: rod::RodSegment {
+                axial: self.coefficients.map_or(TensionLaw::Linear(self.ea), |[k1, k2, k3]| {
+                    TensionLaw::from_powers(vec![self.ea, k1, k2, k3])
+                }),
+                bending: self.ei,
+                compression: self.ei > 0.0,
+                displaced: self.area,
+                drag_diameter: self.diameter,
+                drag_normal: self.cd,
+                drag_tangential: self.cx / PI,
+                added_area: self.area,
+                added_normal: self.ca,
+                ..rod::RodSegment::line(self.length, elements, self.mass, self.ea, (self.area / FRAC_PI_4).sqrt())
+            },
+            strength: BreakingStrength { breaking: self.largest, is_given: self.largest_is_given },
+            joint: self.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
+                mass,
+                volume: displaced / density,
+                added: if displaced > 0.0 { added / displaced } else { added },
+                drag,
+                pendant: 0.0,
+            }),
+        }
+    }
+}
+
 impl DynamicLineClass for CatenaryClass {
     /// Cable dynamics: `rho Ca A` of added mass, `0.5 rho Cd V2 De` across and `0.5 rho Cx V2 De` along, EI, and no maximum tension
     /// [AQWA-CONN 5.8.3.1].
@@ -372,36 +421,8 @@ impl DynamicLineClass for CatenaryClass {
             }
         }
         let whole: f64 = self.sections.iter().map(|s| s.length).sum();
-        let part = |s: &CatenarySection| LinePart {
-            segment: rod::RodSegment {
-                axial: s
-                    .coefficients
-                    .map_or(TensionLaw::Linear(s.ea), |[k1, k2, k3]| TensionLaw::from_powers(vec![s.ea, k1, k2, k3])),
-                bending: s.ei,
-                compression: s.ei > 0.0,
-                displaced: s.area,
-                drag_diameter: s.diameter,
-                drag_normal: s.cd,
-                drag_tangential: s.cx / PI,
-                added_area: s.area,
-                added_normal: s.ca,
-                ..rod::RodSegment::line(
-                    s.length,
-                    ((elements as f64 * s.length / whole).round() as usize).max(1),
-                    s.mass,
-                    s.ea,
-                    (s.area / FRAC_PI_4).sqrt(),
-                )
-            },
-            strength: BreakingStrength { breaking: s.largest, is_given: s.largest_is_given },
-            joint: s.joint_mass.map(|[mass, displaced, added, drag]| JointMass {
-                mass,
-                volume: displaced / density,
-                added: if displaced > 0.0 { added / displaced } else { added },
-                drag,
-                pendant: 0.0,
-            }),
-        };
+        let count = |s: &CatenarySection| ((elements as f64 * s.length / whole).round() as usize).max(1);
+        let part = |s: &CatenarySection| s.part(count(s), density);
         let slope = Some(self.slope).filter(|slope| *slope != 0.0);
         let seabed = Seabed { depth: self.depth, slope, with_anchor: true, ..Seabed::default() };
         let parts = self.sections.iter().map(part).collect();

@@ -34,6 +34,7 @@ pub mod hook;
 mod line_class;
 mod line_element;
 mod line_profile;
+mod line_properties;
 pub mod line_types;
 mod lmu;
 mod lndw;

@@ -10,6 +10,7 @@ use super::dynamic_line::{self as m, DynamicLine, Flexure, Seabed};
 use super::extension::ExtensibleLine;
 use super::line_element::LineElement;
 use super::line_profile::LineProfile;
+use super::line_properties;
 use super::mooring::{Mooring, end_springs, line_error, no_other_end, segments_and_joints, with_series};
 use super::per_line::PerLineOptions;
 use super::reeved_line::ReevedLine;
@@ -25,8 +26,8 @@ use windlass_catenary::{Line, LineError, SeabedModel, StretchLaw};
 use windlass_language::spec::{CommandSpec, OptionSpec};
 use windlass_model::{
     AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
-    FatigueSegment, LengthClass, LineModel, Note, Placement, ReevedLayout, ReevedLineClass, SegmentedClass,
-    StaticLineClass, StaticSeabed, Surroundings,
+    FatigueSegment, LengthClass, LineModel, LineProperties, Note, Placement, ReevedLayout, ReevedLineClass,
+    SegmentedClass, StaticLineClass, StaticSeabed, Surroundings,
 };
 
 /// What -PISTON and -X_DAMPING do, of the help of every class of lines.
@@ -462,6 +463,35 @@ impl SegmentedClass for LineClass {
 
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         self.sections.iter().map(LineSection::fatigue).collect()
+    }
+
+    fn line_properties(&self, around: &Surroundings, is_dynamic: bool) -> Result<LineProperties, ClassError> {
+        let hangs = match self.form() {
+            LineForm::OnBottom => false,
+            LineForm::Hanging { has_weight: true } => true,
+            LineForm::Hanging { has_weight: false } | LineForm::Chord { .. } => {
+                let error = ClassError::new("it is a spring without weight along its chord");
+                return Err(error.help("EXACT makes it a catenary"));
+            }
+        };
+        if !self.devices.is_none() || self.springs.iter().any(Option::is_some) {
+            return Err(ClassError::new("it has springs, pistons or dashpots at its ends"));
+        }
+        if self.is_tabulated() {
+            return Err(ClassError::new("its forces are interpolated in a table").help("leave -TABLE out"));
+        }
+        let seabed = line_properties::seabed(&self.seabed)?;
+        let made = |(section, flexure): (&LineSection, &Flexure)| {
+            let elements = usize::try_from(section.refine).ok().filter(|count| *count > 1);
+            let mut made = line_properties::segment(&flexure.part(section, 1, around), elements, around.water_density)?;
+            // at rest it hangs by its weight in air, whatever it displaces
+            if hangs && !is_dynamic {
+                made.displaced = 0.0;
+            }
+            Ok(made)
+        };
+        let segments = self.sections.iter().zip(&self.flexures).map(made).collect::<Result<_, ClassError>>()?;
+        Ok(LineProperties { segments, seabed: (!hangs || is_dynamic).then_some(seabed) })
     }
 }
 

@@ -3,6 +3,7 @@
 //! Source: [MOSES-FLEX ROD]. MOSES treats rods as an assembly of large deflection tubular beam elements with inertia; the engine is `windlass_line_dynamics`.
 
 use super::dynamic_line::{self as m, DynamicLine, EndFixity, Flexure, LineDescription, LinePart, Seabed};
+use super::line_properties;
 use super::per_line::PerLineOptions;
 use super::section::{LineSection, properties};
 use super::{ClassKind, append_all, checks, options as o};
@@ -12,7 +13,7 @@ use windlass_base::values::Given;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec, count_options, join_lists};
 use windlass_model::{
     AnchoredClass, ClassError, ClassRecord, Connection, Connector, ConnectorClass, ConnectorElement, DynamicLineClass,
-    FatigueSegment, Idealisation, LengthClass, PipeClass, PipeLayout, SegmentedClass, Surroundings,
+    FatigueSegment, Idealisation, LengthClass, LineProperties, PipeClass, PipeLayout, SegmentedClass, Surroundings,
 };
 
 /// The class type.
@@ -200,6 +201,20 @@ impl SegmentedClass for RodClass {
 
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         self.sections.iter().map(LineSection::fatigue).collect()
+    }
+
+    fn line_properties(&self, around: &Surroundings, _: bool) -> Result<LineProperties, ClassError> {
+        if self.holds.iter().any(Option::is_some) {
+            return Err(ClassError::new("-CLAMP holds its ends in their direction").help("a line of a deck is hinged"));
+        }
+        if self.slam {
+            return Err(ClassError::new("it is slammed where it enters the water").help("leave -SLAM out"));
+        }
+        let seabed = line_properties::seabed(&self.seabed)?;
+        let parts = self.description(around).parts;
+        let made = |part: &LinePart| line_properties::segment(part, Some(part.segment.elements), around.water_density);
+        let segments = parts.iter().map(made).collect::<Result<_, ClassError>>()?;
+        Ok(LineProperties { segments, seabed: Some(seabed) })
     }
 }
 

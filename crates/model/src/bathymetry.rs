@@ -155,6 +155,16 @@ impl Bathymetry {
         steps(&self.x).min(steps(&self.y))
     }
 
+    /// Places of its columns and of its rows (m), growing.
+    pub fn places(&self) -> [&[f64]; 2] {
+        [&self.x, &self.y]
+    }
+
+    /// Heights of its points (m, global z), row by row of one y.
+    pub fn point_heights(&self) -> impl Iterator<Item = f64> {
+        self.points.iter().map(|[z, ..]| *z)
+    }
+
     /// Numbers of its columns and rows.
     pub fn size(&self) -> [usize; 2] {
         [self.x.len(), self.y.len()]

@@ -8,6 +8,7 @@ use super::environment::Surroundings;
 use super::fatigue::FatigueSegment;
 use super::idealisation::Idealisation;
 use super::line::{LineModel, Placement};
+use super::line_properties::LineProperties;
 use super::member_section::MemberSection;
 use super::tether::TetherSection;
 use crate::options::{C_SN, EI, EMODULUS, FYIELD, IG_STIFF, POI_RAT, TENSTR};
@@ -312,6 +313,14 @@ pub trait SegmentedClass {
     /// What fatigue goes by in each segment, without curves; none of a class without sections.
     fn fatigue_segments(&self) -> Vec<FatigueSegment> {
         Vec::new()
+    }
+
+    /// A line of it in numbers, for the decks of other programs; `is_dynamic` where `&CONNECTOR -DYNAMICS` makes it a dynamic one.
+    ///
+    /// # Errors
+    /// What those numbers cannot say.
+    fn line_properties(&self, _surroundings: &Surroundings, _is_dynamic: bool) -> Result<LineProperties, ClassError> {
+        Err(ClassError::new("its class has no counterpart"))
     }
 }
 

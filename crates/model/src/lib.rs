@@ -33,6 +33,7 @@ mod fatigue;
 mod hull;
 mod idealisation;
 mod line;
+mod line_properties;
 mod load;
 mod member_section;
 mod names;
@@ -82,6 +83,7 @@ pub use idealisation::{Idealisation, add_model_column};
 pub use line::{
     AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, LineSampling, Placement,
 };
+pub use line_properties::{AttachedMass, AxialLaw, LineProperties, LineSeabed, SegmentProperties};
 pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Lump, Multipliers, PartLoad};
 pub use member_section::{MemberSection, SectionOutline};
 pub use names::EntityKind;

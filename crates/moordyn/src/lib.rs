@@ -10,6 +10,8 @@
 //!
 //! Files of MAP++ [MAP-PP] are read into the same tables: [`map`].
 //!
+//! [`write`] makes the text of a deck of a [`Deck`].
+//!
 //! Not done here: the files that a deck names are not opened; [`files`] reads their texts.
 //!
 //! # Example
@@ -50,6 +52,7 @@ pub mod records;
 mod row;
 mod section;
 pub mod tables;
+pub mod write;
 
 use map::MapOptions;
 use options::Options;

@@ -5,6 +5,7 @@ pub(crate) mod animate;
 pub(crate) mod buildg;
 pub(crate) mod disposition;
 pub(crate) mod message;
+pub(crate) mod moordyn_deck;
 pub(crate) mod picture;
 pub(crate) mod plot;
 pub(crate) mod report_menu;

@@ -13,6 +13,7 @@ use crate::Deck;
 use crate::files::FileText;
 use crate::options::Options;
 use crate::tables::{Attachment, Height, Point};
+use crate::write::number;
 use std::collections::BTreeMap;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
@@ -102,12 +103,6 @@ pub fn records(deck: &Deck, settings: &Settings<'_>) -> Result<Records, Vec<Diag
     };
     writer.write();
     if writer.wrong.is_empty() { Ok(writer.out) } else { Err(writer.wrong) }
-}
-
-/// A number as a record has it: the shortest text that reads back as it.
-fn number(value: f64) -> String {
-    let value = value + 0.0;
-    if value == 0.0 || (1e-4..1e9).contains(&value.abs()) { format!("{value}") } else { format!("{value:E}") }
 }
 
 /// A computed number without the rounding of its last digits.

@@ -133,3 +133,31 @@ fn density_may_be_zero() {
     assert!(reading.messages.is_empty());
     assert_eq!(reading.deck.options.density.unwrap().value, 0.0);
 }
+
+#[test]
+fn written_deck_reads_back_as_the_deck_it_was_written_of() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/data/moordyn");
+    for name in [
+        "grounded_chain",
+        "bridle",
+        "point_force",
+        "free_body",
+        "rod_hung",
+        "rod_pinned",
+        "seafloor",
+        "rope_table",
+        "waves",
+    ] {
+        let text = std::fs::read_to_string(format!("{folder}/{name}.txt")).unwrap();
+        let first = read(&text).deck;
+        let again = read(&windlass_moordyn::write::text(&first, &["a --- head".to_string()]));
+        assert!(!again.is_failed(), "{name}: {:?}", again.messages);
+        // the same values at other places: a second writing is the same text
+        let written = |deck| windlass_moordyn::write::text(deck, &[]);
+        assert_eq!(written(&first), written(&again.deck), "{name}");
+        assert_eq!(first.lines.len(), again.deck.lines.len(), "{name}");
+        // written by hand in the file
+        let last = again.deck.lines.last().map(|line| line.length.value);
+        assert_eq!(first.lines.last().map(|line| line.length.value), last, "{name}");
+    }
+}
