@@ -18,6 +18,7 @@ use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 use windlass_language::token::TokenKind as Lex;
 use windlass_moordyn::records::LineModel;
+use windlass_orcaflex::records as orcaflex;
 
 /// INMODEL.
 pub static INMODEL: Command = Command { spec: &INMODEL_SPEC, edits: false, run: inmodel };
@@ -41,14 +42,21 @@ const MOORDYN: OptionSpec = OptionSpec::new(
     "reads the model of a deck of MoorDyn, MoorPy or MAP++",
 )
 .owner(Owner::Ours);
-const STATIC: OptionSpec = OptionSpec::new("-STATIC", &[], "reads the lines of a MoorDyn deck as quasi-static ones")
-    .default("as dynamic lines of NumSegs elements")
-    .owner(Owner::Ours);
+const ORCAFLEX: OptionSpec = OptionSpec::new(
+    "-ORCAFLEX",
+    &[ValueSpec::new("FILE", Kind::File, "the text model (.yml); looked for where it says, then beside the script")],
+    "reads an OrcaFlex text model",
+)
+.owner(Owner::Ours);
+const STATIC: OptionSpec =
+    OptionSpec::new("-STATIC", &[], "reads the lines of -MOORDYN and -ORCAFLEX as quasi-static ones")
+        .default("as dynamic lines of the segments given")
+        .owner(Owner::Ours);
 
 static INMODEL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::UnlessFile(&menu::INMODEL),
     menus: &[&menu::MAIN],
-    options: &[AQWA, MOORDYN, STATIC],
+    options: &[AQWA, MOORDYN, ORCAFLEX, STATIC],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
              AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
@@ -58,7 +66,8 @@ static INMODEL_SPEC: CommandSpec = CommandSpec {
              bodies BODY1 .., rods bodies ROD1 .. of one TUBE or parts of their body, lines connectors L1 .. that begin at the fairlead (MoorDyn's end B), and depth, density and g defaults and the environment \
              in force, with the currents, waves and seafloor of the files beside the deck. A file of MAP++ has the water in force, and static lines alone. What is coupled stands still until PRESCRIBE moves it; \
              a body VESSEL that the model has takes the coupled points, and moves as it did. A line is a dynamic one of class ROD with NumSegs elements; with \
-             -STATIC it is a B_CAT to an anchor on the seabed, else an H_CAT. A load that is not read is an error at its word.",
+             -STATIC it is a B_CAT to an anchor on the seabed, else an H_CAT. -ORCAFLEX reads General, Environment, LineTypes, Vessels and Lines of an OrcaFlex text model: vessels \
+             become bodies that stand still until PRESCRIBE moves them, lines connectors of their names with their ends *L1A, *L1B ... A load that is not read is an error at its word.",
     example: "INMODEL\n&DESCRIBE BODY TBRG\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 500\nEND",
     ..CommandSpec::new("INMODEL", "reads the model")
 };
@@ -122,9 +131,13 @@ fn model_file(job: &Job) -> Option<PathBuf> {
 }
 
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
-    let lines = if call.args.has(&STATIC) { LineModel::Static } else { LineModel::Dynamic };
+    let is_static = call.args.has(&STATIC);
+    let lines = if is_static { LineModel::Static } else { LineModel::Dynamic };
+    let orcaflex = if is_static { orcaflex::LineModel::Static } else { orcaflex::LineModel::Dynamic };
     let mut decks: Vec<Effect> = Vec::new();
-    for (option, format) in [(&AQWA, DeckFormat::Aqwa), (&MOORDYN, DeckFormat::MoorDyn(lines))] {
+    for (option, format) in
+        [(&AQWA, DeckFormat::Aqwa), (&MOORDYN, DeckFormat::MoorDyn(lines)), (&ORCAFLEX, DeckFormat::OrcaFlex(orcaflex))]
+    {
         let Some(value) = call.args.option(option).and_then(|given| given.values.first()) else { continue };
         if !decks.is_empty() {
             return Err(
@@ -134,8 +147,11 @@ fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let name = value.word().unwrap_or_default();
         decks.push(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)?, format });
     }
-    if call.args.has(&STATIC) && !call.args.has(&MOORDYN) {
-        let error = Diagnostic::error("-STATIC says how the lines of a MoorDyn deck are read", call.args.span);
+    if is_static && ![&MOORDYN, &ORCAFLEX].into_iter().any(|option| call.args.has(option)) {
+        let error = Diagnostic::error(
+            "-STATIC says how the lines of a MoorDyn deck are read, or of an OrcaFlex model",
+            call.args.span,
+        );
         return Err(error.help("write INMODEL -MOORDYN FILE -STATIC"));
     }
     if let Some(deck) = decks.pop() {

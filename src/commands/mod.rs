@@ -66,6 +66,7 @@ use windlass_language::record::{Record, Word};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, MenuSpec};
 use windlass_moordyn::records::LineModel;
+use windlass_orcaflex::records as orcaflex;
 
 /// A record on its way to a handler.
 pub struct Call<'a> {
@@ -126,6 +127,8 @@ pub enum DeckFormat {
     Aqwa,
     /// MoorDyn's tables, with how their lines are read.
     MoorDyn(LineModel),
+    /// OrcaFlex's text models, with how their lines are read.
+    OrcaFlex(orcaflex::LineModel),
 }
 
 /// Tag of the model file INMODEL reads; its end closes the menu.

@@ -1,4 +1,4 @@
-//! Decks of AQWA and MoorDyn: read, listed, and run as the records they amount to.
+//! Decks of AQWA, MoorDyn and OrcaFlex: read, listed, and run as the records they amount to.
 
 use super::Session;
 use crate::commands::{DECK_HEAD, PLAIN, SCRIPT, existing};
@@ -19,6 +19,7 @@ use windlass_language::source::Text;
 use windlass_model::Model;
 use windlass_moordyn::files::FileText;
 use windlass_moordyn::records::{CallerWater, LineModel, Settings, VESSEL};
+use windlass_orcaflex as orcaflex;
 
 /// Records made of a deck, with the cards or rows they are made of.
 #[derive(Clone, Debug)]
@@ -115,7 +116,8 @@ impl Session {
         let settings = Settings { lines, water, has_vessel, files: &files };
         match windlass_moordyn::records::records(&reading.deck, &settings) {
             Ok(records) => {
-                let taken = self.names_taken(&records);
+                let origins = records.origins.iter().map(|(at, origin)| (*at, origin.row.as_str(), origin.span));
+                let taken = self.names_taken(&records.text, origins, VESSEL);
                 if !taken.is_empty() {
                     for error in taken {
                         self.report(error);
@@ -137,6 +139,51 @@ impl Session {
                 }
             }
         }
+    }
+
+    /// Reads an OrcaFlex text model next.
+    pub(super) fn insert_orcaflex(
+        &mut self,
+        (name, path): (&str, &Path),
+        text: Text,
+        lines: orcaflex::records::LineModel,
+        span: Span,
+    ) {
+        let id = self.interpreter.sources.add(name, text.clone(), 1);
+        self.source_files.push((id, path.to_path_buf()));
+        let reading = orcaflex::read(text.as_str(), id);
+        let is_failed = reading.is_failed();
+        for message in reading.messages {
+            self.report(message);
+        }
+        if is_failed {
+            return;
+        }
+        let made = match orcaflex::records::records(&reading.model, lines) {
+            Ok(made) => made,
+            Err(list) => {
+                for message in list {
+                    self.report(message);
+                }
+                return;
+            }
+        };
+        let origins = made.origins.iter().map(|(at, origin)| (*at, origin.object.as_str(), origin.span));
+        let taken = self.names_taken(&made.text, origins, "");
+        if !taken.is_empty() {
+            for error in taken {
+                self.report(error);
+            }
+            return;
+        }
+        for note in made.notes {
+            self.report(note);
+        }
+        // the first points of a model are in the ground
+        self.job.model.current_part = None;
+        let origins = made.origins.into_iter().map(|(at, origin)| (at, origin.object, origin.span)).collect();
+        let records = DeckRecords { text: made.text, origins, unit: "object" };
+        self.open_deck_records(&format!("records of {name}"), records, PLAIN, Some(span));
     }
 
     /// The files beside a MoorDyn deck that it needs; nothing when one cannot be read, which is reported.
@@ -168,26 +215,31 @@ impl Session {
         Some(found)
     }
 
-    /// Classes, points and bodies of a MoorDyn deck whose names the model has: their records would add a segment, move the point or load the body.
-    fn names_taken(&self, records: &windlass_moordyn::records::Records) -> Vec<Diagnostic> {
+    /// Classes, points and bodies of a deck whose names the model has: their records would add a segment, move the point or load the body. The
+    /// body `shared` may be there.
+    fn names_taken<'a>(
+        &self,
+        text: &str,
+        origins: impl Iterator<Item = (usize, &'a str, Span)>,
+        shared: &str,
+    ) -> Vec<Diagnostic> {
         let model = &self.job.model;
         let mut errors = Vec::new();
-        for (at, origin) in &records.origins {
-            let record = records.text.get(*at..).unwrap_or_default();
+        for (at, row, span) in origins {
+            let record = text.get(at..).unwrap_or_default();
             let name = record.split_whitespace().next().unwrap_or_default();
             let described = record.strip_prefix("&DESCRIBE BODY ").and_then(|rest| rest.split_whitespace().next());
             let (kind, name, is_taken) = match name.get(..1) {
                 _ if described.is_some() => {
                     let body = described.unwrap_or_default();
-                    ("body", body, body != VESSEL && model.bodies.contains_key(&Model::key(body)))
+                    ("body", body, body != shared && model.bodies.contains_key(&Model::key(body)))
                 }
                 Some("~") => ("class", name, model.classes.contains_key(&Model::key(name))),
                 Some("*") => ("point", name, model.points.contains_key(&Model::key(name))),
                 _ => continue,
             };
             if is_taken {
-                let error =
-                    Diagnostic::error(format!("{}: the model has a {kind} {name} already", origin.row), origin.span);
+                let error = Diagnostic::error(format!("{row}: the model has a {kind} {name} already"), span);
                 errors.push(*error.help("read the deck first, or DELETE what has its names"));
             }
         }

@@ -388,6 +388,9 @@ impl Session {
                     (Ok(text), DeckFormat::MoorDyn(lines)) => {
                         self.insert_moordyn((&name, &path), text, lines, record.whole());
                     }
+                    (Ok(text), DeckFormat::OrcaFlex(lines)) => {
+                        self.insert_orcaflex((&name, &path), text, lines, record.whole());
+                    }
                     (Err(error), _) => self.report(*Diagnostic::error(error.to_string(), record.whole())),
                 }
                 false

@@ -13,6 +13,7 @@ const SOURCES: [&str; 10] = [
     "AQWA-TETHER",
     "AQWA-REF",
     "MAP-PP",
+    "ORCAFLEX-A01",
     "MOORDYN-2",
     "API-RP-2SK",
     "API-RP-2SM",

@@ -97,6 +97,7 @@ mod floating {
     mod moses_hulls;
     mod moses_weights;
     mod networks;
+    mod orcaflex_models;
     mod panel_forces;
     mod piece_loads;
     mod quay;
