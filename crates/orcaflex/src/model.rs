@@ -181,10 +181,10 @@ fn sections(tree: &Node, made: &mut TextModel, messages: &mut Vec<Diagnostic>) -
     if let Some(node) = data.node("General") {
         keep(general(node, messages), messages);
     }
-    if let Some(entry) = data.entry("Environment") {
-        if let Some(found) = keep(environment(&entry.value, messages), messages) {
-            made.environment = Environment { span: Some(entry.span), ..found };
-        }
+    if let Some(entry) = data.entry("Environment")
+        && let Some(found) = keep(environment(&entry.value, messages), messages)
+    {
+        made.environment = Environment { span: Some(entry.span), ..found };
     }
     made.line_types = objects(&mut data, "LineTypes", line_type, messages);
     made.vessels = objects(&mut data, "Vessels", vessel, messages);

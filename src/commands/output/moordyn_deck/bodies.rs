@@ -52,7 +52,6 @@ impl<'a> DeckWriter<'a> {
         }
         if body.prescribed.is_some() {
             if body.name.eq_ignore_ascii_case(VESSEL) || axes_turned(body) > 1 {
-                self.said_to_be_moved(body, "PRESCRIBE");
                 return Ok(BodyRole::Caller);
             }
             let id = self.body_row(body, Attachment::Coupled, &Mass::default());
@@ -60,24 +59,23 @@ impl<'a> DeckWriter<'a> {
         }
         match self.parts_of_free(body) {
             Err(why) => {
-                self.said_to_be_moved(body, &why);
+                self.note_moved_body(body, &why);
                 Ok(BodyRole::Caller)
             }
             Ok(parts) if axes_turned(body) > 1 && !parts.is_rod() => {
-                self.said_to_be_moved(body, "turns about more than one axis");
+                self.note_moved_body(body, "turns about more than one axis");
                 Ok(BodyRole::Caller)
             }
             Ok(parts) => self.free_body(body, &parts),
         }
     }
 
-    fn said_to_be_moved(&mut self, body: &Body, why: &str) {
-        if why != "PRESCRIBE" {
-            self.remark(format!(
-                "{} has {why}, which a deck does not have: a program moves its points, as coupled ones",
-                body.name
-            ));
-        }
+    /// Says why a program moves the points of a body.
+    fn note_moved_body(&mut self, body: &Body, why: &str) {
+        self.remark(format!(
+            "{} has {why}, which a deck does not have: a program moves its points, as coupled ones",
+            body.name
+        ));
     }
 
     fn junction(&mut self, body: &Body) -> Outcome<BodyRole> {

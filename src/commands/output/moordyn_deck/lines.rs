@@ -169,9 +169,8 @@ impl DeckWriter<'_> {
         let Ok(shape) = shape else { return chord };
         let (distance, [along, across]) = placement.span();
         let joint = |index: usize| -> Option<Position> {
-            let [x, z, length] = at_end_of(&shape, index + 1)?;
-            let [from, _, to] = [x, z, length];
-            let share = if to > 0.0 { from / to } else { 0.0 };
+            let [passed, z, span] = at_end_of(&shape, index + 1)?;
+            let share = if span > 0.0 { passed / span } else { 0.0 };
             let [fx, fy, _] = first;
             Some([fx + along * distance * share, fy + across * distance * share, z])
         };
