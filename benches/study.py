@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Figures of studies: cases a second on one core and two, what a case costs beside its work, memory over 10,000 cases, a million rows collected.
 
-    python3 benches/study.py [speed] [overhead] [memory] [rows]
+    python3 benches/study.py [speed] [overhead] [memory] [rows[=NUMBER]]
 
 Needs a release build (cargo build --release). Prints seconds of the clock and of the processors: on a machine that others load the latter say what
 a case costs, and the former what is left of two cores.
@@ -117,9 +117,9 @@ def record(n, kept):
     return b"%08x %s\n" % (zlib.crc32(text), text)
 
 
-def rows(folder):
-    """A million rows of five inputs and ten results, of a hundred parts, into results.csv and results.parquet."""
-    number, parts, study = 1_000_000, 100, folder / "R"
+def rows(folder, number=1_000_000):
+    """A million rows of five inputs and ten results, of a hundred parts, into results.csv and results.parquet; with the extremes over ten seeds."""
+    parts, study = 100, folder / "R"
     (study / "parts").mkdir(parents=True)
     names = [f"C{n:07d}" for n in range(number)]
     info = {"model": "storm.cif", "begun_in": "", "table": "cases.csv", "seed": 1, "version": VERSION, "start": 1, "cases": names}
@@ -140,6 +140,7 @@ def rows(folder):
 VERSION = subprocess.run([PROGRAM, "--version"], stdout=subprocess.PIPE, text=True).stdout.split()[1]
 if __name__ == "__main__":
     checks = {check.__name__: check for check in (speed, overhead, memory, rows)}
-    for name in sys.argv[1:] or checks:
+    for word in sys.argv[1:] or checks:
+        name, _, number = word.partition("=")
         with tempfile.TemporaryDirectory() as folder:
-            checks[name](Path(folder))
+            checks[name](Path(folder), *[int(number)] * bool(number))

@@ -21,9 +21,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, Once};
 use windlass_base::diagnostic::{Diagnostic, Severity};
+use windlass_base::span::Span;
 use windlass_base::table::{Cell, Column, Fact, Table};
+use windlass_base::units::UnitSystem;
+use windlass_hydro::sea::Sea;
 use windlass_language::render::render;
 use windlass_language::source::Text;
+use windlass_model::Ambient;
 use windlass_solve::film::{Film, FilmSelection};
 use windlass_solve::scene::{Scene, SceneOptions};
 
@@ -153,6 +157,63 @@ impl Write for CollectedText {
 
     fn flush(&mut self) -> std::io::Result<()> {
         Ok(())
+    }
+}
+
+/// What surrounds lines whose fairleads a program moves, beside an environment of records.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineWater {
+    /// Depth (m); none of water that is deep.
+    pub depth: Option<f64>,
+    /// Density (kg/m3).
+    pub density: f64,
+    /// Gravity (m/s2).
+    pub gravity: f64,
+}
+
+/// Longest options of an environment (bytes).
+const LONGEST_ENVIRONMENT: usize = 1 << 20;
+
+impl LineWater {
+    /// The water of an environment: `options` are those of a `&ENV` record (`-SEA JONSWAP 180 9 12 3.3 -SEED 5 -RAMP 60`), in metres, seconds,
+    /// degrees and kilonewtons. Lines feel it as those of `TDOM` do.
+    ///
+    /// # Errors
+    /// What the record refuses; what lines of a program do not feel: marine growth, a bottom over a grid; a depth or density of its own.
+    pub fn ambient(&self, options: &str) -> Result<Arc<dyn Ambient>, HostMessage> {
+        let refuse = |text: &str| Err(HostMessage::plain(Severity::Error, text, Vec::new()));
+        if options.len() > LONGEST_ENVIRONMENT
+            || options.contains(|letter: char| letter.is_control() || "$&%\\".contains(letter))
+        {
+            return refuse(
+                "the environment holds options of one &ENV record, without `$`, `&`, `%`, `\\` and ends of lines",
+            );
+        }
+        let mut hosted = HostedSession::new(HostSettings::default());
+        let ended = hosted.run("&DIMEN -DIMEN METERS KN", None);
+        let ended = if ended.error.is_none() {
+            hosted.run(&format!("&ENV WATER {options}"), Some("environment"))
+        } else {
+            ended
+        };
+        if let Some(error) = ended.error {
+            return Err(error);
+        }
+        let model = &mut hosted.session.job.model;
+        if model.environment.depth.is_some() || model.environment.water_density.is_some() {
+            return refuse("depth and density are arguments of their own, not options of the environment");
+        }
+        (model.environment.depth, model.environment.water_density) = (self.depth, Some(self.density));
+        model.defaults.gravity = self.gravity;
+        let wrong = |error: windlass_model::ClassError| {
+            HostMessage::plain(Severity::Error, error.diagnostic(Span::default(), UnitSystem::SI).message, Vec::new())
+        };
+        let sea = Sea::new(model, &model.environment).map_err(wrong)?.map(Arc::new);
+        let ambient = windlass_hydro::ambient(model, sea.as_ref()).map_err(wrong)?;
+        if ambient.grows() || ambient.has_bottom_grid() {
+            return refuse("marine growth and a bottom over a grid are not felt by these lines");
+        }
+        Ok(ambient)
     }
 }
 

@@ -1,11 +1,11 @@
 //! Quasi-static lines over numpy arrays.
 
 use crate::errors::{detached, engine_error};
+use crate::interruptible::make_each;
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use rayon::prelude::*;
 use windlass_catenary::{
     CatenaryWarmStart, EndForces, FlatBottom, Joint, Line as Engine, LineError, LineForces, SeabedModel, Segment,
 };
@@ -46,16 +46,6 @@ fn count(inputs: &[Input<'_>]) -> PyResult<usize> {
 fn contiguous<'a>(name: &'static str, array: &'a PyReadonlyArray1<'_, f64>) -> PyResult<Input<'a>> {
     let values = array.as_slice().map_err(|_| PyValueError::new_err(format!("{name} is not contiguous")))?;
     Ok(Input { name, values })
-}
-
-/// What is made of each line on one core or on all, in the order of the lines.
-fn solve_all<T: Send>(count: usize, threads: usize, solve: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
-    if threads == 1 || count <= LINES_A_TASK {
-        return (0..count).map(solve).collect();
-    }
-    let mut solved = Vec::new();
-    (0..count).into_par_iter().with_min_len(LINES_A_TASK).map(solve).collect_into_vec(&mut solved);
-    solved
 }
 
 /// Columns of results under their names; a line without an answer is NaN in all of them.
@@ -136,12 +126,10 @@ pub fn solve<'py>(
     ];
     let count = count(&inputs)?;
     let [x, z, length, ea, w, friction] = &inputs;
-    let solved = detached(py, || {
-        solve_all(count, threads, |at| -> Result<EndForces, LineError> {
-            let segment = Segment { length: length.get(at), weight: w.get(at), ea: ea.get(at) };
-            let bottom = seabed.then(|| FlatBottom { friction: friction.get(at) });
-            segment.solve_end_forces(x.get(at), z.get(at), bottom)
-        })
+    let solved = make_each(py, count, (threads, LINES_A_TASK), |at| -> Result<EndForces, LineError> {
+        let segment = Segment { length: length.get(at), weight: w.get(at), ea: ea.get(at) };
+        let bottom = seabed.then(|| FlatBottom { friction: friction.get(at) });
+        segment.solve_end_forces(x.get(at), z.get(at), bottom)
     })?;
     let failed = failures(py, &solved, raise_)?;
     let columns = Columns::new(py);
@@ -241,12 +229,10 @@ impl Line {
         let inputs = [contiguous("x", &x)?, contiguous("z", &z)?];
         let count = count(&inputs)?;
         let [x, z] = &inputs;
-        let solved = detached(py, || {
-            solve_all(count, threads, |at| -> Result<LineForces, LineError> {
-                // each is found as if nothing were known, so that the order of the places does not show
-                let mut warm: Option<CatenaryWarmStart> = None;
-                self.engine.solve_forces(x.get(at), z.get(at), &mut warm)
-            })
+        let solved = make_each(py, count, (threads, LINES_A_TASK), |at| -> Result<LineForces, LineError> {
+            // each is found as if nothing were known, so that the order of the places does not show
+            let mut warm: Option<CatenaryWarmStart> = None;
+            self.engine.solve_forces(x.get(at), z.get(at), &mut warm)
         })?;
         let failed = failures(py, &solved, raise_)?;
         let columns = Columns::new(py);

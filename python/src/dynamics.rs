@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::Mutex;
 use std::sync::atomic::AtomicBool;
+use windlass::hosted::LineWater;
 use windlass_line_dynamics::{
     CoupledLine, CoupledLines, PlaneBottom, Rod, RodSegment, SeabedLaw, Surroundings, UniformFluid,
 };
@@ -126,7 +127,7 @@ impl Dynamics {
 #[pymethods]
 impl Dynamics {
     #[new]
-    #[pyo3(signature = (lines, *, depth, density, gravity, current, seabed_stiffness, seabed_damping, friction, dt))]
+    #[pyo3(signature = (lines, *, depth, density, gravity, current, environment, seabed_stiffness, seabed_damping, friction, dt))]
     #[allow(clippy::too_many_arguments, reason = "the arguments of the Python class")]
     fn new(
         py: Python<'_>,
@@ -135,6 +136,7 @@ impl Dynamics {
         density: f64,
         gravity: f64,
         current: [f64; 3],
+        environment: Option<String>,
         seabed_stiffness: f64,
         seabed_damping: f64,
         friction: f64,
@@ -162,7 +164,11 @@ impl Dynamics {
             friction_across: friction,
             ..SeabedLaw::elastic(seabed_stiffness)
         };
+        let water = LineWater { depth, density, gravity };
+        let ambient = environment.map(|options| detached(py, || water.ambient(&options))).transpose()?;
+        let ambient = ambient.transpose().map_err(|error| engine_error(py, error.rendered.trim_end()))?;
         let around = Surroundings {
+            ambient,
             water: UniformFluid::moving(density, current.into()),
             bottom: depth.map(|depth| (PlaneBottom { height: -depth, slope: [0.0; 2] }, law)),
             gravity,

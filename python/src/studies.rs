@@ -22,14 +22,16 @@ pub fn run_program(py: Python<'_>, arguments: Vec<String>, interpreter: PathBuf)
     })
 }
 
-/// The tables of a study as it stands in its folder: a row a case, a row a line of each case, a row a result of each ensemble of seeds.
+/// The tables of a study as it stands in its folder: a row a case, a row a line of each case, a row a result of each ensemble of seeds, a
+/// row a segment of a line of each ensemble that is checked by a code.
 #[pyfunction]
-pub fn read_study(py: Python<'_>, folder: PathBuf) -> PyResult<(Table, Table, Table)> {
+pub fn read_study(py: Python<'_>, folder: PathBuf) -> PyResult<(Table, Table, Table, Table)> {
     let tables = detached(py, || study::read(&folder))?.map_err(|error| engine_error(py, error))?;
     let table = |what: &str, columns| Table::from_columns(&format!("{what} of {}", folder.display()), columns);
     Ok((
         table("Results", tables.results),
         table("Lines", tables.lines),
         table("Extremes over seeds", tables.ensembles),
+        table("Checks over seeds", tables.seed_checks),
     ))
 }

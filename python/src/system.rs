@@ -1,14 +1,17 @@
 //! Quasi-static lines on one body: their wrench and its stiffness at many poses.
 
 use crate::catenary::Line;
-use crate::errors::{detached, engine_error};
+use crate::errors::engine_error;
+use crate::interruptible::make_each;
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use windlass_catenary::{LineError, LineForces};
+
+/// Poses that a core takes at once.
+const POSES_A_TASK: usize = 16;
 
 /// A line between an anchor in the ground and a point of the body.
 struct Mooring {
@@ -97,12 +100,12 @@ impl System {
             std::array::from_fn(|at| row.get(at).copied().unwrap_or(f64::NAN))
         };
         let poses: Vec<[f64; 6]> = poses.as_array().rows().into_iter().map(row).collect();
-        let held: Vec<Result<Held, (usize, LineError)>> =
-            detached(py, || poses.par_iter().with_min_len(16).map(|pose| self.hold(pose)).collect())?;
+        let hold = |at: usize| poses.get(at).map(|pose| self.hold(pose));
+        let held = make_each(py, poses.len(), (0, POSES_A_TASK), hold)?.into_iter().flatten();
         let named = |(at, held): (usize, Result<Held, (usize, LineError)>)| {
             held.map_err(|(line, error)| engine_error(py, format!("pose {at}, line {line}: {error}")))
         };
-        held.into_iter().enumerate().map(named).collect()
+        held.enumerate().map(named).collect()
     }
 }
 

@@ -1,6 +1,9 @@
 """The catenary over arrays: closed forms, MoorPy's stored numbers, and what is refused."""
 
+import _thread
 import csv
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -169,3 +172,22 @@ def test_system_refuses_other_shapes():
         System([Line([(900.0, 1500.0, 8e8)], anchor=-300.0)], [[0.0, 0.0]], fairleads)
     with pytest.raises(windlass.Error, match="pose 1, line 0"):
         system.wrench([[0.0] * 6, [0.0, 0.0, -400.0, 0.0, 0.0, 0.0]])
+
+
+def test_large_batch_stops_at_control_c():
+    # a minute of work of one core
+    line = Line([(300.0, 900.0, 1e8), (600.0, 1500.0, 1e9)], anchor=-100.0, friction=0.5)
+    x = np.linspace(700.0, 880.0, 2_000_000)
+
+    def press():
+        time.sleep(0.5)
+        _thread.interrupt_main()
+
+    thread = threading.Thread(target=press)
+    begun = time.monotonic()
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        line.forces(x, -10.0, threads=1)
+    thread.join()
+    # well below what all of it takes
+    assert time.monotonic() - begun < 10.0

@@ -11,6 +11,7 @@ use ::parquet::file::metadata::KeyValue;
 use ::parquet::file::properties::WriterProperties;
 use ::parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use ::parquet::schema::types::Type;
+use std::io::Write;
 use std::sync::Arc;
 use windlass_base::table::Table;
 use windlass_base::units::UnitSystem;
@@ -43,60 +44,83 @@ fn encode_table(table: &Table, units: UnitSystem) -> Result<Vec<u8>, Failed> {
     Ok(encode_columns(&table.title, &notes, columns)?)
 }
 
-/// The bytes of a file of columns of one length.
-///
-/// # Errors
-/// What the writer refuses.
-pub fn column_bytes(title: &str, notes: &str, columns: Vec<StoredColumn>) -> Result<Vec<u8>, StoreError> {
-    encode_columns(title, notes, columns).map_err(|error| StoreError::Library(error.to_string()))
-}
-
 fn encode_columns(title: &str, notes: &str, columns: Vec<StoredColumn>) -> Result<Vec<u8>, ParquetError> {
-    let mut fields = Vec::new();
-    for column in &columns {
-        let physical = match column.values {
-            ColumnValues::Numbers(_) => Physical::DOUBLE,
-            ColumnValues::Wholes(_) => Physical::INT64,
-            ColumnValues::Texts(_) => Physical::BYTE_ARRAY,
-        };
-        let logical = matches!(column.values, ColumnValues::Texts(_)).then_some(LogicalType::String);
-        let field = Type::primitive_type_builder(&column.head, physical)
-            .with_repetition(Repetition::OPTIONAL)
-            .with_logical_type(logical)
-            .build()?;
-        fields.push(Arc::new(field));
-    }
-    let schema = Arc::new(Type::group_type_builder("windlass").with_fields(fields).build()?);
-    let units: Vec<String> = columns.iter().map(|c| format!("{}:{}", string(&c.head), string(&c.unit))).collect();
-    let facts = [
-        ("title", title.to_owned()),
-        ("source", SOURCE.to_string()),
-        ("units", format!("{{{}}}", units.join(","))),
-        ("notes", notes.to_owned()),
-    ];
-    let facts = facts.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect();
-    let properties = Arc::new(WriterProperties::builder().set_key_value_metadata(Some(facts)).build());
     let mut out = Vec::new();
-    let mut writer = SerializedFileWriter::new(&mut out, schema, properties)?;
-    let mut group = writer.next_row_group()?;
-    for column in columns {
-        match column.values {
-            ColumnValues::Numbers(list) => write_column::<DoubleType>(&mut group, list)?,
-            ColumnValues::Wholes(list) => write_column::<Int64Type>(&mut group, list)?,
-            ColumnValues::Texts(list) => {
-                let list = list.into_iter().map(|t| t.map(|t| ByteArray::from(t.into_bytes()))).collect();
-                write_column::<ByteArrayType>(&mut group, list)?;
-            }
-        }
-    }
-    group.close()?;
+    let mut writer = ColumnWriter::new(&mut out, title, notes, &columns)?;
+    writer.write(columns)?;
     writer.close()?;
     Ok(out)
 }
 
+/// A file of columns that is written a group of rows after the other: no more than one is held.
+pub struct ColumnWriter<W: Write + Send> {
+    writer: SerializedFileWriter<W>,
+}
+
+impl<W: Write + Send> ColumnWriter<W> {
+    /// A file whose columns have the heads, units and types of these.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn new(out: W, title: &str, notes: &str, columns: &[StoredColumn]) -> Result<Self, ParquetError> {
+        let mut fields = Vec::new();
+        for column in columns {
+            let physical = match column.values {
+                ColumnValues::Numbers(_) => Physical::DOUBLE,
+                ColumnValues::Wholes(_) => Physical::INT64,
+                ColumnValues::Texts(_) => Physical::BYTE_ARRAY,
+            };
+            let logical = matches!(column.values, ColumnValues::Texts(_)).then_some(LogicalType::String);
+            let field = Type::primitive_type_builder(&column.head, physical)
+                .with_repetition(Repetition::OPTIONAL)
+                .with_logical_type(logical)
+                .build()?;
+            fields.push(Arc::new(field));
+        }
+        let schema = Arc::new(Type::group_type_builder("windlass").with_fields(fields).build()?);
+        let units: Vec<String> = columns.iter().map(|c| format!("{}:{}", string(&c.head), string(&c.unit))).collect();
+        let facts = [
+            ("title", title.to_owned()),
+            ("source", SOURCE.to_string()),
+            ("units", format!("{{{}}}", units.join(","))),
+            ("notes", notes.to_owned()),
+        ];
+        let facts = facts.into_iter().map(|(key, value)| KeyValue::new(key.to_string(), value)).collect();
+        let properties = Arc::new(WriterProperties::builder().set_key_value_metadata(Some(facts)).build());
+        Ok(ColumnWriter { writer: SerializedFileWriter::new(out, schema, properties)? })
+    }
+
+    /// Adds rows: columns of one length, of the types that the file was begun with.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write(&mut self, columns: Vec<StoredColumn>) -> Result<(), ParquetError> {
+        let mut group = self.writer.next_row_group()?;
+        for column in columns {
+            match column.values {
+                ColumnValues::Numbers(list) => write_column::<DoubleType, W>(&mut group, list)?,
+                ColumnValues::Wholes(list) => write_column::<Int64Type, W>(&mut group, list)?,
+                ColumnValues::Texts(list) => {
+                    let list = list.into_iter().map(|t| t.map(|t| ByteArray::from(t.into_bytes()))).collect();
+                    write_column::<ByteArrayType, W>(&mut group, list)?;
+                }
+            }
+        }
+        group.close().map(drop)
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn close(self) -> Result<(), ParquetError> {
+        self.writer.close().map(drop)
+    }
+}
+
 /// Writes the next column: the values that are there, and for each row whether there is one.
-fn write_column<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, &mut Vec<u8>>,
+fn write_column<T: DataType, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
     list: Vec<Option<T::T>>,
 ) -> Result<(), ParquetError> {
     let there: Vec<i16> = list.iter().map(|v| i16::from(v.is_some())).collect();
@@ -113,7 +137,6 @@ mod tests {
     use super::*;
     use ::parquet::file::reader::{FileReader, SerializedFileReader};
     use ::parquet::record::Field;
-    use std::io::Write;
     use windlass_base::table::Digits;
     use windlass_base::units::Dim;
 

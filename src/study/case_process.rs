@@ -39,8 +39,8 @@ struct CaseInput {
     stiffness: Option<String>,
     /// Lines whose peaks are to be kept.
     peaks_of: Vec<String>,
-    /// Peaks of the intact case that a transient one follows, and which instant of these it is run with.
-    intact: Option<(Vec<LinePeaks>, usize)>,
+    /// Peaks of the intact case that a transient one follows, which instant of these it is run with, and the folders of those before.
+    intact: Option<(Vec<LinePeaks>, usize, Vec<PathBuf>)>,
 }
 
 /// What a case gives back, on its standard output.
@@ -182,7 +182,10 @@ impl Processes {
             lost: case.lost.as_ref().map(|lost| (lost.condition, lost.lines.clone())),
             stiffness: case.stiffness.map(|stiffness| stiffness.word().to_ascii_uppercase()),
             peaks_of: case.peaks_of.clone(),
-            intact: intact.map(|(record, instant)| (record.peaks.clone(), instant)),
+            intact: intact.map(|(record, instant)| {
+                let earlier = (1..=instant).map(|number| folder.with_file_name(instant_folder(number))).collect();
+                (record.peaks.clone(), instant, earlier)
+            }),
         };
         let ended = self.start(&input);
         record.seconds = since.elapsed().as_secs_f64();
@@ -273,13 +276,18 @@ fn join_instants(mut known: CaseRecord, more: CaseRecord) -> CaseRecord {
     known
 }
 
+/// The folder of an instant of a transient case, from 1, in that of the case.
+fn instant_folder(number: usize) -> String {
+    format!("instant-{number}")
+}
+
 /// Moves the answers of the instant with the most severe row to the top of the folder of a case; those of the others stay in folders of
 /// their own.
 fn raise_governing(record: &CaseRecord, folder: &Path) -> std::io::Result<()> {
     let severity = |row: &&LineRow| row.severity().map_or(f64::NEG_INFINITY, |(_, value)| value);
     let governing = record.lines.iter().max_by(|a, b| severity(a).total_cmp(&severity(b)));
     let number = governing.and_then(|row| row.loss.as_ref()).map_or(1, |loss| loss.number);
-    let own = folder.join(format!("instant-{number}"));
+    let own = folder.join(instant_folder(number));
     if !own.is_dir() {
         return Ok(());
     }
@@ -315,7 +323,7 @@ impl RunCase for Processes {
         let (mut instant, mut count) = (0, 1);
         while instant < count {
             // each with a folder of its own; that of the governing one goes to the top
-            let own = folder.join(format!("instant-{}", instant + 1));
+            let own = folder.join(instant_folder(instant + 1));
             let made =
                 std::fs::create_dir_all(&own).map(|()| self.run_process(case, columns, &own, Some((intact, instant))));
             let (record, instants) = match made {
@@ -397,7 +405,8 @@ pub fn run_one(input: impl Read, mut output: impl Write) -> u8 {
                     made.error.get_or_insert_with(|| format!("{name}: {error}"));
                 }
             }
-            session.job.intact_run = input.intact.map(|(peaks, instant)| IntactRun { peaks, instant });
+            session.job.intact_run =
+                input.intact.map(|(peaks, instant, earlier)| IntactRun { peaks, instant, earlier });
             session.open_job(&name, text);
             if let Some(word) = &input.stiffness {
                 // before the script, and one of the records that make the model of a kept run

@@ -1,16 +1,18 @@
 //! Extremes over seeds: a row for each result of each ensemble of a study.
 
-use super::tables::{input_column, number_column, text_column};
+use super::tables::{RowSource, cell_of, input_column, input_heads, number_column, text_column};
 use crate::report::stored::StoredColumn;
+use std::ops::Range;
 use windlass_signal::ensemble::{GumbelFit, SeedExtremes, seeds_for_scatter, seeds_for_scatter_of_minima};
 use windlass_study::ensemble::{Ensemble, EnsembleResult, ensembles, is_seed_column};
-use windlass_study::record::{CaseRecord, CaseStatus};
+use windlass_study::record::CaseStatus;
+use windlass_study::records::RecordView;
 use windlass_study::store::Study;
 
 /// Confidence level of the intervals.
 const LEVEL: f64 = 0.95;
-/// Half width of the interval of the most probable maximum that `seeds_for_5_percent` is about, as a share of it.
-const SCATTER: f64 = 0.05;
+/// Ensembles whose rows are made at once.
+const ENSEMBLES_AT_ONCE: usize = 1 << 12;
 /// Fractiles of the maximum of one seed: the mode, F = 1/e, and those that are asked for in practice.
 const FRACTILES: [(&str, f64); 4] = [("mpm", 0.367_879_441_171_442_3), ("p50", 0.5), ("p90", 0.9), ("p95", 0.95)];
 
@@ -29,13 +31,13 @@ struct Row<'a> {
 
 impl<'a> Row<'a> {
     /// The first case of the ensemble.
-    fn first(&self) -> Option<&'a CaseRecord> {
-        self.ensemble.cases.first().copied()
+    fn first(&self) -> Option<RecordView<'a>> {
+        self.ensemble.cases().next()
     }
 }
 
 /// Names of the numbers, in the order of [`Row::numbers`].
-fn heads() -> Vec<String> {
+fn heads(seeds: String) -> Vec<String> {
     let mut heads: Vec<String> = COUNTS.iter().chain(&SAMPLE).map(|&name| name.to_owned()).collect();
     for fit in ["moments", "likelihood"] {
         heads.extend(["location", "scale"].map(|name| format!("{fit}_{name}")));
@@ -43,7 +45,7 @@ fn heads() -> Vec<String> {
             heads.extend(["", "_low", "_high"].map(|end| format!("{fit}_{name}{end}")));
         }
     }
-    heads.push("seeds_for_5_percent".into());
+    heads.push(seeds);
     heads
 }
 
@@ -76,11 +78,11 @@ fn sample(values: &[f64]) -> [Option<f64>; 4] {
     [Some(mean), deviation, Some(largest), Some(least)].map(|number| number.filter(|number| number.is_finite()))
 }
 
-fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
+fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult, (percent, seeds_head): (f64, &str)) -> Row<'a> {
     let [mean, deviation, largest, least] = sample(&result.values);
     let whole = |count: usize| Some(count as f64);
     let mut numbers = vec![
-        whole(ensemble.cases.len()),
+        whole(ensemble.len()),
         whole(ensemble.count(CaseStatus::Failed)),
         whole(ensemble.count(CaseStatus::Overloaded)),
         whole(result.missing),
@@ -103,8 +105,8 @@ fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
     }
     let seeds = if result.is_least { seeds_for_scatter_of_minima } else { seeds_for_scatter };
     let seeds = match (mean, deviation) {
-        (Some(mean), Some(deviation)) if reason.is_none() => seeds(deviation / mean, SCATTER, LEVEL)
-            .map_err(|error| reason = Some(format!("no seeds_for_5_percent: {error}")))
+        (Some(mean), Some(deviation)) if reason.is_none() => seeds(deviation / mean, percent / 100.0, LEVEL)
+            .map_err(|error| reason = Some(format!("no {seeds_head}: {error}")))
             .ok(),
         _ => None,
     };
@@ -112,39 +114,67 @@ fn row<'a>(ensemble: &'a Ensemble<'a>, result: EnsembleResult) -> Row<'a> {
     Row { ensemble, result, numbers, reason }
 }
 
-/// The columns of `ensembles.csv`; none where no case shares its inputs with another, or no result is kept.
-pub(super) fn columns(study: &Study) -> Vec<StoredColumn> {
-    let ensembles = ensembles(&study.records);
-    if ensembles.iter().all(|ensemble| ensemble.cases.len() + ensemble.repeated < 2) {
-        return Vec::new();
-    }
-    let rows: Vec<Row<'_>> =
-        ensembles.iter().flat_map(|ensemble| ensemble.results().into_iter().map(|r| row(ensemble, r))).collect();
-    if rows.is_empty() {
-        return Vec::new();
-    }
-    let mut columns =
-        vec![text_column("first_case", rows.iter().map(|row| row.first().map(|case| case.case.clone())).collect())];
-    let mut inputs: Vec<&str> = Vec::new();
-    for (name, _) in ensembles.iter().filter_map(|ensemble| ensemble.cases.first()).flat_map(|case| &case.values) {
-        if !is_seed_column(name) && !inputs.contains(&name.as_str()) {
-            inputs.push(name);
+/// The rows of `ensembles.csv`.
+pub(super) struct EnsembleRows<'a> {
+    ensembles: Vec<Ensemble<'a>>,
+    inputs: Vec<(&'a str, bool)>,
+    /// Half width of the interval of the most probable maximum that a number of seeds is about, per cent of it.
+    percent: f64,
+}
+
+impl<'a> EnsembleRows<'a> {
+    /// None where no case shares its inputs with another, or no result is kept.
+    pub(super) fn new(study: &'a Study) -> Option<Self> {
+        let ensembles = ensembles(&study.records);
+        if ensembles.iter().all(|ensemble| ensemble.len() + ensemble.repeated < 2) {
+            return None;
         }
+        let has_result = |record: RecordView| {
+            let has_tension = || record.lines().any(|row| row.largest_tension.or(row.least_tension).is_some());
+            record.status() != CaseStatus::Failed && (record.results().next().is_some() || has_tension())
+        };
+        if !ensembles.iter().any(|ensemble| ensemble.cases().any(has_result)) {
+            return None;
+        }
+        let mut inputs = input_heads(ensembles.iter().filter_map(|ensemble| ensemble.cases().next()));
+        inputs.retain(|(name, _)| !is_seed_column(name));
+        Some(EnsembleRows { ensembles, inputs, percent: study.info.scatter_percent })
     }
-    for input in inputs {
-        let of =
-            |row: &Row<'_>| row.first()?.values.iter().find(|(name, _)| name == input).map(|(_, value)| value.clone());
-        columns.push(input_column(input, rows.iter().map(of).collect()));
+}
+
+impl RowSource for EnsembleRows<'_> {
+    fn count(&self) -> usize {
+        self.ensembles.len()
     }
-    columns.push(text_column("result", rows.iter().map(|row| Some(row.result.name.clone())).collect()));
-    let extreme = |row: &Row<'_>| Some(if row.result.is_least { "least" } else { "largest" }.to_owned());
-    columns.push(text_column("extreme", rows.iter().map(extreme).collect()));
-    let unit = |row: &Row<'_>| Some(row.result.unit.clone()).filter(|unit| !unit.is_empty());
-    columns.push(text_column("unit", rows.iter().map(unit).collect()));
-    for (at, head) in heads().iter().enumerate() {
-        let values = rows.iter().map(|row| row.numbers.get(at).copied().flatten()).collect();
-        columns.push(number_column(head, "", values));
+
+    fn at_once(&self) -> usize {
+        ENSEMBLES_AT_ONCE
     }
-    columns.push(text_column("reason", rows.iter().map(|row| row.reason.clone()).collect()));
-    columns
+
+    fn columns(&self, range: Range<usize>) -> Vec<StoredColumn> {
+        let seeds_head = format!("seeds_for_{}_percent", self.percent);
+        let ensembles = range.filter_map(|place| self.ensembles.get(place));
+        let rows_of = |ensemble| {
+            let results = Ensemble::results(ensemble).into_iter();
+            results.map(|result| row(ensemble, result, (self.percent, &seeds_head))).collect::<Vec<_>>()
+        };
+        let rows: Vec<Row<'_>> = ensembles.flat_map(rows_of).collect();
+        let first = rows.iter().map(|row| row.first().map(|case| case.case().to_owned()));
+        let mut columns = vec![text_column("first_case", first.collect())];
+        for (input, is_number) in &self.inputs {
+            let cells = rows.iter().map(|row| cell_of(row.first()?, input)).collect();
+            columns.push(input_column(input, *is_number, cells));
+        }
+        columns.push(text_column("result", rows.iter().map(|row| Some(row.result.name.clone())).collect()));
+        let extreme = |row: &Row<'_>| Some(if row.result.is_least { "least" } else { "largest" }.to_owned());
+        columns.push(text_column("extreme", rows.iter().map(extreme).collect()));
+        let unit = |row: &Row<'_>| Some(row.result.unit.clone()).filter(|unit| !unit.is_empty());
+        columns.push(text_column("unit", rows.iter().map(unit).collect()));
+        for (at, head) in heads(seeds_head.clone()).iter().enumerate() {
+            let values = rows.iter().map(|row| row.numbers.get(at).copied().flatten()).collect();
+            columns.push(number_column(head, "", values));
+        }
+        columns.push(text_column("reason", rows.iter().map(|row| row.reason.clone()).collect()));
+        columns
+    }
 }

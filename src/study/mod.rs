@@ -6,6 +6,7 @@ mod parquet_table;
 mod parts;
 mod peaks;
 pub mod report;
+mod seed_checks;
 mod slurm;
 mod tables;
 mod variables;
@@ -26,7 +27,7 @@ use windlass_base::printable::printable;
 use windlass_study::parts::newest_division;
 use windlass_study::record::CaseStatus;
 use windlass_study::runner::{Keep, Progress, RunCase, StudyEnd, StudyPlan, run_study};
-use windlass_study::store::{Files, Study, StudyError, SystemFiles};
+use windlass_study::store::{Files, SCATTER_PERCENT, Study, StudyError, SystemFiles};
 use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
 /// Longest table (bytes).
@@ -85,6 +86,9 @@ pub struct StudyArgs {
     /// Run failed cases of an earlier start again
     #[arg(long)]
     pub retry_failed: bool,
+    /// Half width of the 95 % interval of the most probable maximum over seeds, per cent of it, that ensembles.csv says the number of seeds for
+    #[arg(long, value_name = "PERCENT", default_value_t = SCATTER_PERCENT)]
+    pub scatter: f64,
     /// Divide the cases into N parts and run none here: windlass study part DIR runs each, collect DIR makes the tables
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub parts: Option<u32>,
@@ -209,6 +213,10 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
         complain(&format!("--pack {pack}: minutes above zero"));
         return StudyExit::Usage;
     }
+    if !(args.scatter.is_finite() && args.scatter > 0.0) {
+        complain(&format!("--scatter {}: per cent above zero", args.scatter));
+        return StudyExit::Usage;
+    }
     if let Some(job) = slurm::find_running(folder) {
         complain(&format!("{}: job {job} of Slurm is not over: wait for it, or scancel {job}", folder.display()));
         return StudyExit::Usage;
@@ -237,14 +245,12 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
             KeepArg::All => Keep::Everything,
         },
         retry_failed: args.retry_failed,
+        scatter_percent: args.scatter,
     };
     if slurm.is_some() || args.parts.is_some() {
         return parts::distribute(args, &plan, slurm.as_ref(), &processes, &stop, out, complain);
     }
-    let bar = progress_bar();
-    let ended = run_study(&plan, &SystemFiles, &processes, &stop, &|progress| tell(&bar, progress));
-    bar.finish_and_clear();
-    let ended = match ended {
+    let ended = match with_bar(&mut |told| run_study(&plan, &SystemFiles, &processes, &stop, told)) {
         Ok(ended) => ended,
         Err(error) => return refused(&error, complain),
     };
@@ -284,11 +290,16 @@ fn refused(error: &StudyError, complain: &dyn Fn(&str)) -> StudyExit {
     if matches!(error, StudyError::Folder { .. }) { StudyExit::Usage } else { StudyExit::Failed }
 }
 
-/// Shows how far a study is.
-fn tell(bar: &ProgressBar, progress: Progress) {
-    bar.set_length(progress.total as u64);
-    bar.set_position(progress.finished as u64);
-    bar.set_message(format!("{} failed", progress.failed));
+/// Runs something that says how far it is, with a bar at a terminal.
+fn with_bar<T>(run: &mut dyn FnMut(&(dyn Fn(Progress) + Sync)) -> T) -> T {
+    let bar = progress_bar();
+    let made = run(&|progress| {
+        bar.set_length(progress.total as u64);
+        bar.set_position(progress.finished as u64);
+        bar.set_message(format!("{} failed", progress.failed));
+    });
+    bar.finish_and_clear();
+    made
 }
 
 /// Writes the tables of a study as it stands in its folder.
@@ -359,9 +370,9 @@ fn summary(study: &Study, (left, ended): (usize, &StudyEnd), folder: &Path) -> S
     }
     text.push('\n');
     text.push_str(&earlier_cases(ended));
-    let wrong: Vec<_> = study.records.iter().filter(|record| record.status == CaseStatus::Failed).collect();
+    let wrong: Vec<_> = study.records.iter().filter(|record| record.status() == CaseStatus::Failed).collect();
     for record in wrong.iter().take(MOST_NAMED) {
-        text.push_str(&format!("   {} failed: {}\n", record.case, record.reason));
+        text.push_str(&format!("   {} failed: {}\n", record.case(), record.reason()));
     }
     if wrong.len() > MOST_NAMED {
         text.push_str(&format!("   and {} more failed: the column reason of results.csv\n", wrong.len() - MOST_NAMED));
@@ -399,21 +410,22 @@ fn rerun(
             return StudyExit::Usage;
         }
     };
-    let Some(record) = study.records.iter().find(|record| record.case.eq_ignore_ascii_case(name)) else {
-        let names = study.records.iter().map(|record| record.case.as_str());
+    let Some(record) = study.records.iter().find(|record| record.case().eq_ignore_ascii_case(name)) else {
+        let names = study.records.iter().map(|record| record.case());
         let near = windlass_base::diagnostic::did_you_mean(name, names).map(|near| format!("; {near}"));
         complain(&format!("{} has no finished case {name}{}", folder.display(), near.unwrap_or_default()));
         return StudyExit::Usage;
     };
-    let (case, columns) = match Case::from_record(record) {
+    let record = record.to_record();
+    let (case, columns) = match Case::from_record(&record) {
         Ok(made) => made,
         Err(error) => {
             complain(&format!("{name}: {error}"));
             return StudyExit::Failed;
         }
     };
-    let intact = case.intact.as_ref().and_then(|intact| study.records.iter().find(|record| record.case == *intact));
-    if let Some(intact) = intact.filter(|intact| intact.status == CaseStatus::Failed) {
+    let intact = case.intact.as_ref().and_then(|intact| study.records.of_case(intact)).map(|view| view.to_record());
+    if let Some(intact) = intact.as_ref().filter(|intact| intact.status == CaseStatus::Failed) {
         complain(&format!("{name} follows its intact case {}, which has failed", intact.case));
         return StudyExit::Failed;
     }
@@ -424,7 +436,7 @@ fn rerun(
     let processes = Processes::new(&script, cores, program);
     let (processes, made) = match (fresh, processes) {
         (Ok(()), Ok(processes)) => {
-            let made = processes.run(&case, &columns, &place, intact);
+            let made = processes.run(&case, &columns, &place, intact.as_ref());
             (processes, made)
         }
         (Err(error), _) | (_, Err(error)) => {

@@ -2,8 +2,8 @@
 
 use super::case_process::{CaseProgram, Processes};
 use super::slurm::{self, SlurmOptions};
-use super::{StudyArgs, StudyExit, earlier_cases, print, progress_bar, refused, report_end, summary, tell};
-use super::{counted, threads_of_each};
+use super::{StudyArgs, StudyExit, counted, earlier_cases, print, refused, report_end, summary};
+use super::{threads_of_each, with_bar};
 use std::io::Write;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -116,9 +116,7 @@ fn measure(
         return Ok(None);
     }
     let places = sample(begun.pending.len(), args.sample.unwrap_or(SAMPLE).into());
-    let bar = progress_bar();
-    let ran = begun.run_sample(&places, plan, &SystemFiles, processes, stop, &|progress| tell(&bar, progress));
-    bar.finish_and_clear();
+    let ran = with_bar(&mut |told| begun.run_sample(&places, plan, &SystemFiles, processes, stop, told));
     ran.map(|()| expected(begun))
 }
 
@@ -187,10 +185,7 @@ pub(super) fn run_part(
             return StudyExit::Failed;
         }
     };
-    let bar = progress_bar();
-    let told = |progress| tell(&bar, progress);
-    let ended = part.run((jobs, scratch.path()), &SystemFiles, &processes, stop, &told);
-    bar.finish_and_clear();
+    let ended = with_bar(&mut |told| part.run((jobs, scratch.path()), &SystemFiles, &processes, stop, told));
     let ended = match ended {
         Ok(ended) => ended,
         Err(error) => return refused(&error, complain),

@@ -109,6 +109,19 @@ static void dynamics(void) {
     expect(windlass_dynamics_step(NULL, 21, x, v, force) == WINDLASS_WRONG_CALL, "no lines");
     windlass_dynamics_free(d);
     windlass_dynamics_free(NULL);
+    /* a taut vertical line in a wave of 10 s and 2 m in 50 m of water feels Morison's force: python/tests/test_dynamics.py has the integral */
+    windlass_line stiff = {.length = 9.99, .mass = 100, .ea = 1e9, .diameter = 0.3, .cd_normal = 1.2, .ca_normal = 1, .elements = 50,
+                           .anchor = {0, 0, -20}, .fairlead = {0, 0, -10}};
+    windlass_surroundings sea = {.density = 1025, .gravity = 9.80665, .depth = 50, .longest_step = 0.05, .environment = "-WAVES 10 2 0 180 -RAMP 20"};
+    d = windlass_dynamics_new(&stiff, 1, &sea);
+    expect(d != NULL, "a line in waves");
+    double top[3] = {0, 0, -10}, rest[3] = {0, 0, 0}, other[3];
+    expect(windlass_dynamics_step(d, 47.5, top, rest, force) == WINDLASS_DONE, "a step in waves");
+    expect(windlass_dynamics_anchor_forces(d, other) == WINDLASS_DONE, "the force on the anchor");
+    near(force[0] + other[0], 661.5, 5, "Morison's force (N)");
+    windlass_dynamics_free(d);
+    sea.environment = "-SEE JONSWAP";
+    expect(windlass_dynamics_new(&stiff, 1, &sea) == NULL && strstr(windlass_last_error(), "-SEE") != NULL, "no option of &ENV");
     line.mass = -1;
     expect(windlass_dynamics_new(&line, 1, &around) == NULL && strstr(windlass_last_error(), "mass") != NULL, "a negative mass");
     expect(windlass_dynamics_new(NULL, 1, &around) == NULL && windlass_dynamics_new(&line, 1, NULL) == NULL, "no line, no surroundings");

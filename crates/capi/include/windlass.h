@@ -118,6 +118,9 @@ typedef struct windlass_surroundings {
     double seabed_damping;   /* (N s/m3) */
     double friction;         /* Coulomb's coefficient */
     double longest_step;     /* (s): a call that goes further is cut in equal steps */
+    const char *environment; /* options of an &ENV record in metres, seconds and degrees: waves by a spectrum and a seed
+                              * ("-SEA JONSWAP 180 9 12 3.3 -SEED 5 -RAMP 60") or one by one ("-WAVES T A PHASE DIR .."), current by depth, wind.
+                              * Its velocities come to `current`; lines feel the waves from time 0 on. Null for none */
 } windlass_surroundings;
 
 /* Lines at rest at time 0. Null where one is refused or finds no rest. */

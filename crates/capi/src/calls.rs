@@ -13,7 +13,7 @@ use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use windlass::hosted::{internal_error, keep_panics_quiet};
+use windlass::hosted::{LineWater, internal_error, keep_panics_quiet};
 use windlass_catenary::{FlatBottom, Segment};
 use windlass_line_dynamics::{
     CoupledLine, CoupledLines, PlaneBottom, Rod, RodSegment, SeabedLaw, Surroundings, UniformFluid,
@@ -417,6 +417,7 @@ pub struct WindlassSurroundings {
     seabed_damping: f64,
     friction: f64,
     longest_step: f64,
+    environment: *const c_char,
 }
 
 impl WindlassLine {
@@ -439,7 +440,7 @@ impl WindlassLine {
 }
 
 impl WindlassSurroundings {
-    fn build(&self) -> Result<Surroundings, String> {
+    fn build(&self, environment: Option<&str>) -> Result<Surroundings, String> {
         for (name, value) in [
             ("density", self.density),
             ("gravity", self.gravity),
@@ -460,7 +461,12 @@ impl WindlassSurroundings {
             friction_across: self.friction,
             ..SeabedLaw::elastic(self.seabed_stiffness)
         };
+        let depth = Some(self.depth).filter(|depth| !depth.is_nan());
+        let water = LineWater { depth, density: self.density, gravity: self.gravity };
+        let ambient = environment.map(|options| water.ambient(options)).transpose();
+        let ambient = ambient.map_err(|error| error.rendered.trim_end().to_owned())?;
         Ok(Surroundings {
+            ambient,
             water: UniformFluid::moving(self.density, self.current.into()),
             bottom: (!self.depth.is_nan()).then_some((PlaneBottom { height: -self.depth, slope: [0.0; 2] }, law)),
             gravity: self.gravity,
@@ -487,11 +493,20 @@ pub unsafe extern "C" fn windlass_dynamics_new(
         keep_error("the surroundings are null");
         return none;
     };
+    // SAFETY: null, or a text that ends in NUL, by the header
+    let environment =
+        Some(around.environment).filter(|text| !text.is_null()).map(|given| unsafe { text(given, "environment") });
+    let environment = match environment {
+        Some(None) => return none,
+        Some(given) => given,
+        None => None,
+    };
     guarded(none, || {
         let made = || -> Result<CoupledLines, String> {
             let built: Result<Vec<CoupledLine>, String> =
                 lines.iter().enumerate().map(|(at, line)| line.build(at + 1)).collect();
-            CoupledLines::new(built?, around.build()?, around.longest_step).map_err(|error| error.to_string())
+            CoupledLines::new(built?, around.build(environment)?, around.longest_step)
+                .map_err(|error| error.to_string())
         };
         match made() {
             Ok(lines) => Box::into_raw(Box::new(lines)),

@@ -264,13 +264,34 @@ pub struct StrengthRule {
     pub provenance: Provenance,
 }
 
-/// The rule of the design tension of several seeds: the mean of their maxima plus so many standard deviations.
+choices! {
+    /// What of the maxima of several seeds a code checks, where it is one of these.
+    pub enum SeedsWord {
+        /// Their most probable value, the mode of the Gumbel distribution fitted to them.
+        Mpm = "mpm",
+        /// Their mean.
+        Mean = "mean",
+    }
+}
+
+/// What of the maxima of several seeds is the design tension.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MeanPlusRule {
-    /// Standard deviations added.
-    pub deviations: f64,
-    /// Where it comes from.
-    pub provenance: Provenance,
+pub enum SeedsStatistic {
+    /// The most probable maximum.
+    MostProbable,
+    /// The mean of the maxima.
+    Mean,
+    /// Their mean plus so many standard deviations: for each number of seeds, ascending, how many from it on.
+    MeanPlus(Vec<(usize, f64)>),
+}
+
+/// The rule of the design tension of several seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeedsRule {
+    /// What is checked.
+    pub statistic: SeedsStatistic,
+    /// Where it comes from; none where the code does not say it here, so that the most probable maximum is taken.
+    pub provenance: Vec<Provenance>,
 }
 
 /// What of a code is chosen beside analysis and condition.
@@ -372,6 +393,8 @@ struct RawCode {
     fatigue: Vec<Spanned<RawFatigue>>,
     #[serde(default)]
     mean_plus: Vec<Spanned<RawMeanPlus>>,
+    #[serde(default)]
+    seeds: Vec<Spanned<RawSeeds>>,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -447,6 +470,18 @@ struct RawMeanPlus {
     sure: Option<Spanned<String>>,
 }
 
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSeeds {
+    statistic: Spanned<String>,
+    analysis: Option<Spanned<String>>,
+    #[serde(default)]
+    clause: String,
+    #[serde(default)]
+    source: String,
+    sure: Option<Spanned<String>>,
+}
+
 /// An entry of a code: whom it is for, what it says, and where it comes from. What it says is missing where only the form is known.
 #[derive(Clone, Debug, PartialEq)]
 struct Entry<W, T> {
@@ -488,6 +523,7 @@ pub struct Code {
     anchor: Vec<Entry<AnchorWhom, f64>>,
     fatigue: Vec<Entry<(), (f64, Option<NeighbourRise>)>>,
     mean_plus: Vec<Entry<(Analysis, i64), f64>>,
+    seeds: Vec<Entry<Option<Analysis>, SeedsWord>>,
 }
 
 /// A row of the list of what a code says.
@@ -536,7 +572,11 @@ impl CodeLibrary {
                     code.strength.append(&mut known.strength);
                     code.anchor.append(&mut known.anchor);
                     code.fatigue.append(&mut known.fatigue);
-                    code.mean_plus.append(&mut known.mean_plus);
+                    // a statistic of the user's own takes the place of deviations that ship
+                    if code.seeds.is_empty() {
+                        code.mean_plus.append(&mut known.mean_plus);
+                    }
+                    code.seeds.append(&mut known.seeds);
                     *known = code;
                 }
                 None => self.codes.push(code),
@@ -678,27 +718,39 @@ impl Code {
         Ok(FatigueRule { factor, rise, provenance })
     }
 
-    /// The rule for the design tension of so many seeds, that of the most seeds that are no more than these; none of a code that takes the
-    /// most probable maximum.
+    /// The rule for the design tension of several seeds.
     ///
     /// # Errors
-    /// Fewer seeds than it has numbers for; numbers that are missing or from memory.
-    pub fn mean_plus_rule(
-        &self,
-        analysis: Analysis,
-        seeds: usize,
-        options: &CodeOptions,
-    ) -> Result<Option<MeanPlusRule>, CodeError> {
-        if self.mean_plus.is_empty() {
-            return Ok(None);
+    /// Numbers that are missing or from memory.
+    pub fn seeds_rule(&self, analysis: Analysis, options: &CodeOptions) -> Result<SeedsRule, CodeError> {
+        let what = format!("the design tension of several seeds, {} analysis", analysis.word());
+        let of_analysis = || self.mean_plus.iter().filter(|entry| entry.whom.0 == analysis);
+        if of_analysis().next().is_some() {
+            let (mut steps, mut provenance): (Vec<(usize, f64)>, Vec<Provenance>) = (Vec::new(), Vec::new());
+            for entry in of_analysis() {
+                let Ok(seeds) = usize::try_from(entry.whom.1) else { continue };
+                // the user's own, which comes first, goes before what ships
+                if steps.iter().any(|(known, _)| *known == seeds) {
+                    continue;
+                }
+                let (deviations, from) = self.usable(Some(entry), what.clone(), options.unconfirmed)?;
+                steps.push((seeds, deviations));
+                if !provenance.contains(&from) {
+                    provenance.push(from);
+                }
+            }
+            steps.sort_unstable_by_key(|(seeds, _)| *seeds);
+            return Ok(SeedsRule { statistic: SeedsStatistic::MeanPlus(steps), provenance });
         }
-        let what = format!("the design tension of {seeds} seeds, {} analysis", analysis.word());
-        let enough = |e: &&Entry<(Analysis, i64), f64>| {
-            e.whom.0 == analysis && usize::try_from(e.whom.1).is_ok_and(|least| least <= seeds)
+        let Some(found) = self.seeds.iter().find(|entry| fits(entry.whom, Some(analysis))) else {
+            return Ok(SeedsRule { statistic: SeedsStatistic::MostProbable, provenance: Vec::new() });
         };
-        let found = self.mean_plus.iter().filter(enough).max_by_key(|e| (e.whom.1, e.provenance.is_own));
-        let (deviations, provenance) = self.usable(found, what, options.unconfirmed)?;
-        Ok(Some(MeanPlusRule { deviations, provenance }))
+        let (word, provenance) = self.usable(Some(found), what, options.unconfirmed)?;
+        let statistic = match word {
+            SeedsWord::Mpm => SeedsStatistic::MostProbable,
+            SeedsWord::Mean => SeedsStatistic::Mean,
+        };
+        Ok(SeedsRule { statistic, provenance: vec![provenance] })
     }
 
     fn must_choose<'e>(
@@ -780,6 +832,14 @@ impl Code {
             let value = e.value.map(|deviations| format!("T = mean of maxima + {deviations} s"));
             list.push(line("design tension", applies, value, &e.provenance));
         }
+        for e in &self.seeds {
+            let applies = format!("{}, several seeds", e.whom.map_or("any analysis", Analysis::word));
+            let value = e.value.map(|word| match word {
+                SeedsWord::Mpm => "T = most probable maximum".to_owned(),
+                SeedsWord::Mean => "T = mean of maxima".to_owned(),
+            });
+            list.push(line("design tension", applies, value, &e.provenance));
+        }
         list
     }
 }
@@ -844,6 +904,7 @@ impl Reader<'_> {
             anchor: Vec::new(),
             fatigue: Vec::new(),
             mean_plus: Vec::new(),
+            seeds: Vec::new(),
         };
         for entry in &raw.tension {
             code.tension.push(self.tension(entry)?);
@@ -883,6 +944,12 @@ impl Reader<'_> {
             };
             let whom = (self.choice(&raw.analysis)?, seeds);
             code.mean_plus.push(self.entry(whom, value, at, (&raw.clause, &raw.source, &raw.sure))?);
+        }
+        for entry in &raw.seeds {
+            let (raw, at) = (entry.get_ref(), entry.span().start);
+            let whom = self.optional_choice(&raw.analysis)?;
+            let word = self.choice(&raw.statistic)?;
+            code.seeds.push(self.entry(whom, Some(word), at, (&raw.clause, &raw.source, &raw.sure))?);
         }
         Ok(code)
     }
@@ -1094,13 +1161,30 @@ deviations = 0.3
     }
 
     #[test]
-    fn deviations_are_those_of_the_most_seeds_that_are_there() {
+    fn statistic_of_seeds_is_what_the_code_says_or_the_most_probable_maximum() {
         let library = own();
         let code = library.find("COMPANY").unwrap();
-        let found =
-            |n| code.mean_plus_rule(Analysis::Dynamic, n, &CodeOptions::default()).map(|r| r.unwrap().deviations);
-        assert_eq!((found(5), found(9), found(10), found(40)), (Ok(0.6), Ok(0.6), Ok(0.3), Ok(0.3)));
-        assert!(found(4).is_err());
+        let statistic = |code: &Code, analysis| code.seeds_rule(analysis, &CodeOptions::default()).map(|r| r.statistic);
+        let steps = SeedsStatistic::MeanPlus(vec![(5, 0.6), (10, 0.3)]);
+        assert_eq!(statistic(code, Analysis::Dynamic), Ok(steps));
+        assert_eq!(statistic(code, Analysis::QuasiStatic), Ok(SeedsStatistic::MostProbable));
+        let says = format!("{OWN}\n[[code.seeds]]\nstatistic = \"mean\"\nanalysis = \"quasi-static\"\n");
+        let says = CodeLibrary::parse_own(&says).unwrap();
+        let code = says.find("COMPANY").unwrap();
+        assert_eq!(statistic(code, Analysis::QuasiStatic), Ok(SeedsStatistic::Mean));
+        // one of the user's own in the place of deviations that ship without numbers
+        let shipped = "[[code]]\nname = \"B\"\ntitle = \"b\"\nedition = \"1\"\n[[code.mean_plus]]\nanalysis = \"dynamic\"\n\
+                       seeds = 5\nsure = \"not given\"\n";
+        let shipped = CodeLibrary::parse_shipped(shipped).unwrap();
+        assert!(
+            statistic(shipped.find("B").unwrap(), Analysis::Dynamic)
+                .unwrap_err()
+                .to_string()
+                .contains("not its numbers")
+        );
+        let own = "[[code]]\nname = \"B\"\ntitle = \"b\"\nedition = \"1\"\n[[code.seeds]]\nstatistic = \"mpm\"\n";
+        let both = shipped.with_own(CodeLibrary::parse_own(own).unwrap());
+        assert_eq!(statistic(both.find("B").unwrap(), Analysis::Dynamic), Ok(SeedsStatistic::MostProbable));
         assert!(
             library.find("COMPANYY").unwrap_err()
                 == CodeError::NoCode { name: "COMPANYY".into(), near: vec!["COMPANY".into()] }

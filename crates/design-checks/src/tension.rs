@@ -14,13 +14,6 @@ pub struct LineTension {
     pub pretension: Option<f64>,
 }
 
-impl LineTension {
-    /// T_dyn, the characteristic tension less the mean (N).
-    pub fn dynamic(&self) -> f64 {
-        self.characteristic - self.mean
-    }
-}
-
 /// What a check of tension came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TensionCheck {
@@ -32,6 +25,47 @@ pub struct TensionCheck {
     pub utilisation: f64,
     /// Whether it holds.
     pub verdict: Verdict,
+}
+
+/// The load that a form of check compares with the strength, as a sum: on the mean tension, on the characteristic one, and what does not
+/// depend on either.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LoadFactors {
+    /// On T_mean.
+    pub mean: f64,
+    /// On the characteristic tension.
+    pub characteristic: f64,
+    /// Added (N).
+    pub added: f64,
+}
+
+impl LoadFactors {
+    /// Those of a form of check, of a line with this pretension (N) where it is known.
+    ///
+    /// # Errors
+    /// A pretension that the form needs.
+    pub fn new(form: &TensionForm, pretension: Option<f64>) -> Result<Self, CheckError> {
+        Ok(match *form {
+            TensionForm::SafetyFactor(factor) | TensionForm::SingleFactor(factor) => {
+                LoadFactors { mean: 0.0, characteristic: factor, added: 0.0 }
+            }
+            // T_dyn is the characteristic tension less the mean
+            TensionForm::PartialFactors { mean, dynamic } => {
+                LoadFactors { mean: mean - dynamic, characteristic: dynamic, added: 0.0 }
+            }
+            TensionForm::PretensionFactors { pretension: factor, environment } => {
+                let pulled = pretension
+                    .ok_or_else(|| CheckError::Lacks("this form of check needs the pretension of each line".into()))?;
+                finite("the pretension", pulled)?;
+                LoadFactors { mean: 0.0, characteristic: environment, added: (factor - environment) * pulled }
+            }
+        })
+    }
+
+    /// The load (N) of a mean and a characteristic tension (N); 0 of a line that is pushed.
+    pub fn load(&self, mean: f64, characteristic: f64) -> f64 {
+        (self.mean * mean + self.characteristic * characteristic + self.added).max(0.0)
+    }
 }
 
 /// Checks a tension against a strength (N): the breaking load, or the characteristic strength where the rule asks for it.
@@ -52,20 +86,11 @@ pub fn check_tension(tension: &LineTension, strength: f64, rule: &TensionRule) -
         return Err(CheckError::Value { what: "the characteristic tension", expected, value: tension.characteristic });
     }
     let largest = tension.characteristic.max(0.0);
-    let (load, required) = match rule.form {
-        TensionForm::SafetyFactor(factor) => (factor * largest, Some(factor)),
-        TensionForm::SingleFactor(factor) => (factor * largest, None),
-        TensionForm::PartialFactors { mean, dynamic } => {
-            ((mean * tension.mean + dynamic * tension.dynamic()).max(0.0), None)
-        }
-        TensionForm::PretensionFactors { pretension, environment } => {
-            let pulled = tension
-                .pretension
-                .ok_or_else(|| CheckError::Lacks("this form of check needs the pretension of each line".into()))?;
-            finite("the pretension", pulled)?;
-            ((pretension * pulled + environment * (tension.characteristic - pulled)).max(0.0), None)
-        }
+    let required = match rule.form {
+        TensionForm::SafetyFactor(factor) => Some(factor),
+        _ => None,
     };
+    let load = LoadFactors::new(&rule.form, tension.pretension)?.load(tension.mean, tension.characteristic);
     let utilisation = load / strength;
     let safety_factor = strength / largest;
     Ok(TensionCheck { safety_factor, required, utilisation, verdict: Verdict::of(utilisation, rule.is_confirmed()) })

@@ -6,19 +6,24 @@
 //! those of that cubic.
 
 use super::ends::{RodEnd, RodEndMotion};
-use super::environment::{LineEnvironment, PlaneBottom, SeabedLaw, UniformFluid};
+use super::environment::{FluidField, FluidState, LineEnvironment, PlaneBottom, SeabedLaw, UniformFluid};
 use super::error::RodError;
 use super::mesh::Rod;
 use super::scheme::RodSettings;
 use super::solver::RodSolver;
 use super::state::RodState;
 use nalgebra::Vector3;
+use std::cell::RefCell;
+use std::sync::Arc;
+use windlass_model::{Ambient, Flow};
 
-/// What surrounds the lines: water that moves at one velocity, and a plane bottom.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What surrounds the lines: water that moves at one velocity and by waves, and a plane bottom.
+#[derive(Clone, Debug)]
 pub struct Surroundings {
-    /// The water, with its surface at z = 0.
+    /// The water, with its surface at z = 0 where it has no waves; its velocity is everywhere.
     pub water: UniformFluid,
+    /// Waves, and currents and wind that change with the height; their velocities come to that of the water. Lines at rest feel no waves.
+    pub ambient: Option<Arc<dyn Ambient>>,
     /// The bottom and its contact law; none for lines that never meet it.
     pub bottom: Option<(PlaneBottom, SeabedLaw)>,
     /// Acceleration of gravity (m/s2), downward.
@@ -60,9 +65,54 @@ pub struct CoupledLines {
 /// Steps that one call is cut into at most.
 const MAX_STEPS: f64 = 1e6;
 
+/// The water of surroundings, as a rod asks for it.
+struct CoupledWater<'a> {
+    around: &'a Surroundings,
+    /// Whether waves are left out: at rest.
+    mean: bool,
+    /// Room for what is asked.
+    flows: RefCell<Vec<Flow>>,
+}
+
+impl FluidField for CoupledWater<'_> {
+    fn sample(&self, position: &Vector3<f64>, time: f64) -> FluidState {
+        let mut found = [self.around.water.0];
+        self.sample_into(std::slice::from_ref(position), time, &mut found);
+        found[0]
+    }
+
+    fn sample_into(&self, positions: &[Vector3<f64>], time: f64, out: &mut [FluidState]) {
+        let still = self.around.water.0;
+        let Some(ambient) = &self.around.ambient else { return out.fill(still) };
+        let mut flows = self.flows.borrow_mut();
+        flows.clear();
+        flows.resize(positions.len(), Flow::still_water(still.surface));
+        if self.mean {
+            ambient.mean(positions, &mut flows);
+        } else {
+            ambient.flow(time, positions, &mut flows);
+        }
+        for (out, Flow { velocity, acceleration, surface, head, wind }) in out.iter_mut().zip(flows.iter().copied()) {
+            *out = FluidState { velocity: velocity + still.velocity, acceleration, surface, head, wind, ..still };
+        }
+    }
+
+    fn uniform(&self) -> bool {
+        self.around.ambient.is_none()
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.around.ambient.as_ref().is_some_and(|ambient| ambient.is_interrupted())
+    }
+}
+
 impl Surroundings {
-    fn environment(&self) -> LineEnvironment<'_> {
-        let mut world = LineEnvironment::new(&self.water, self.gravity);
+    fn water(&self, mean: bool) -> CoupledWater<'_> {
+        CoupledWater { around: self, mean, flows: RefCell::default() }
+    }
+
+    fn environment<'a>(&'a self, water: &'a CoupledWater<'a>) -> LineEnvironment<'a> {
+        let mut world = LineEnvironment::new(water, self.gravity);
         world.bottom = self.bottom.as_ref().map(|(plane, law)| (plane as &dyn super::SeabedShape, *law));
         world
     }
@@ -78,7 +128,8 @@ impl CoupledLines {
             let why = format!("its longest step of {longest_step} s is no length of time");
             return Err(RodError::Shape { rod: "system of lines".into(), why });
         }
-        let world = around.environment();
+        let water = around.water(true);
+        let world = around.environment(&water);
         let mut rods = Vec::with_capacity(lines.len());
         for line in lines {
             let (fairlead, anchor) = (line.fairlead, line.anchor);
@@ -90,6 +141,7 @@ impl CoupledLines {
             let velocity = Vector3::zeros();
             rods.push(CoupledRod { line, solver, state, position: fairlead, velocity, force: held.force });
         }
+        drop(water);
         Ok(CoupledLines { rods, around, longest_step, time: 0.0 })
     }
 
@@ -126,7 +178,8 @@ impl CoupledLines {
             ));
         }
         let before: Vec<RodState> = self.rods.iter().map(|rod| rod.state.clone()).collect();
-        let world = self.around.environment();
+        let water = self.around.water(false);
+        let world = self.around.environment(&water);
         let mut forces = Vec::with_capacity(count);
         for (rod, (position, velocity)) in self.rods.iter_mut().zip(positions.iter().zip(velocities)) {
             let path = Cubic { interval, from: [rod.position, rod.velocity], to: [*position, *velocity] };

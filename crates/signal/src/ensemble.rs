@@ -96,7 +96,16 @@ impl SeedExtremes {
     /// # Errors
     /// A probability or level that is not between 0 and 1.
     pub fn fractile(&self, probability: f64, level: f64) -> Result<Estimate, SeriesError> {
-        let reduced = reduced_variate(probability)?;
+        self.at_reduced_variate(reduced_variate(probability)?, level)
+    }
+
+    /// The value at a reduced variate y = -ln(-ln F) of the distribution, location + y scale, with the interval of a confidence level (0..1).
+    /// 0 is the most probable maximum, Euler's constant the mean; ln(D/T) is the most probable maximum of a storm of duration D where the records
+    /// last T.
+    ///
+    /// # Errors
+    /// A level that is not between 0 and 1.
+    pub fn at_reduced_variate(&self, reduced: f64, level: f64) -> Result<Estimate, SeriesError> {
         let value = self.gumbel.location + self.gumbel.scale * reduced;
         let half = student_t(self.count, level)? * self.deviation_of_estimate(reduced);
         Ok(Estimate { value, interval: (value - half, value + half) })

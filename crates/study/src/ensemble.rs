@@ -1,15 +1,17 @@
 //! Ensembles: cases that differ in nothing but their seed, one extreme of a result each.
 
-use crate::record::{CaseRecord, CaseStatus};
+use crate::record::CaseStatus;
+use crate::records::{RecordView, Records};
 use crate::table::{MEMBER, SEED, SEED_OF};
 use indexmap::IndexMap;
 use std::collections::{HashMap, HashSet};
 
 /// Cases of one row but for their seeds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Ensemble<'a> {
-    /// Its cases, in the order of the study. Of those with the same seed only the first is here.
-    pub cases: Vec<&'a CaseRecord>,
+    records: &'a Records,
+    /// Places of its cases.
+    places: Vec<usize>,
     /// How many cases are left out because a case before them has the same seed.
     pub repeated: usize,
 }
@@ -36,64 +38,86 @@ pub fn is_seed_column(name: &str) -> bool {
 
 /// The ensembles of the cases of a study, in the order of their first cases. Cases are of one ensemble where all columns but `member`,
 /// `seed` and `seed_of` have the same values; a case that no other goes with is an ensemble of one.
-pub fn ensembles(records: &[CaseRecord]) -> Vec<Ensemble<'_>> {
+pub fn ensembles(records: &Records) -> Vec<Ensemble<'_>> {
     let mut places: HashMap<Vec<(&str, &str)>, usize> = HashMap::new();
-    let mut made: Vec<(Ensemble<'_>, HashSet<u64>)> = Vec::new();
-    for record in records {
-        let inputs = record.values.iter().filter(|(name, _)| !is_seed_column(name));
-        let key = inputs.map(|(name, value)| (name.as_str(), value.as_str())).collect();
+    let mut made: Vec<Ensemble<'_>> = Vec::new();
+    let mut seeds: HashSet<(usize, u64)> = HashSet::new();
+    for (at, record) in records.iter().enumerate() {
+        let key = record.values().filter(|(name, _)| !is_seed_column(name)).collect();
         let place = *places.entry(key).or_insert(made.len());
         if place == made.len() {
-            made.push((Ensemble { cases: Vec::new(), repeated: 0 }, HashSet::new()));
+            made.push(Ensemble { records, places: Vec::new(), repeated: 0 });
         }
-        let Some((ensemble, seeds)) = made.get_mut(place) else { continue };
-        if seeds.insert(record.seed) {
-            ensemble.cases.push(record);
+        let Some(ensemble) = made.get_mut(place) else { continue };
+        if seeds.insert((place, record.seed())) {
+            ensemble.places.push(at);
         } else {
             ensemble.repeated += 1;
         }
     }
-    made.into_iter().map(|(ensemble, _)| ensemble).collect()
+    made
 }
 
-impl Ensemble<'_> {
+impl<'a> Ensemble<'a> {
+    /// Its cases, in the order of the study. Of those with the same seed only the first is here.
+    pub fn cases(&self) -> impl Iterator<Item = RecordView<'a>> + Clone + use<'a, '_> {
+        let records = self.records;
+        self.places.iter().filter_map(move |place| records.get(*place))
+    }
+
+    /// How many cases it has.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Whether it has none.
+    pub fn is_empty(&self) -> bool {
+        self.places.is_empty()
+    }
+
     /// How many of its cases ended so.
     pub fn count(&self, status: CaseStatus) -> usize {
-        self.cases.iter().filter(|case| case.status == status).count()
+        self.cases().filter(|case| case.status() == status).count()
     }
 
     /// The results that its cases have kept, in the order of the scripts; behind them the largest and the least tension of each segment of
     /// a line. Failed cases are left out: what they kept may be of half a run.
     pub fn results(&self) -> Vec<EnsembleResult> {
-        let ended: Vec<_> = self.cases.iter().filter(|case| case.status != CaseStatus::Failed).collect();
+        let ended = || self.cases().filter(|case| case.status() != CaseStatus::Failed);
+        let count = ended().count();
         let mut made: Vec<EnsembleResult> = Vec::new();
-        for result in ended.iter().flat_map(|case| &case.results) {
-            match made.iter_mut().find(|known| known.name.eq_ignore_ascii_case(&result.name)) {
+        for ((name, unit, is_least), value) in ended().flat_map(|case| case.results()) {
+            match made.iter_mut().find(|known| known.name.eq_ignore_ascii_case(name)) {
                 // of another unit it is no value of this result
-                Some(known) if known.unit == result.unit => known.values.push(result.value),
+                Some(known) if known.unit == *unit => known.values.push(value),
                 Some(_) => {}
                 None => made.push(EnsembleResult {
-                    name: result.name.clone(),
-                    unit: result.unit.clone(),
-                    values: vec![result.value],
+                    name: name.clone(),
+                    unit: unit.clone(),
+                    values: vec![value],
                     missing: 0,
-                    is_least: result.is_least,
+                    is_least: *is_least,
                 }),
             }
         }
-        for is_least in [false, true] {
-            let mut tensions: IndexMap<(&str, Option<usize>), Vec<f64>> = IndexMap::new();
-            for case in &ended {
-                let mut seen: HashSet<(&str, Option<usize>)> = HashSet::new();
-                for row in &case.lines {
-                    let tension = if is_least { row.least_tension } else { row.largest_tension };
+        // of each segment its largest and its least tensions
+        let mut tensions: [IndexMap<(String, Option<usize>), Vec<f64>>; 2] = Default::default();
+        for case in ended() {
+            let mut seen: [HashSet<(String, Option<usize>)>; 2] = Default::default();
+            for row in case.lines() {
+                for ((known, seen), tension) in
+                    tensions.iter_mut().zip(&mut seen).zip([row.largest_tension, row.least_tension])
+                {
+                    let segment = (row.line.clone(), row.segment);
                     // a script that checks twice has two rows of a segment, with one tension
-                    if let Some(tension) = tension.filter(|_| seen.insert((&row.line, row.segment))) {
-                        tensions.entry((&row.line, row.segment)).or_default().push(tension);
+                    if let Some(tension) = tension.filter(|_| seen.insert(segment.clone())) {
+                        known.entry(segment).or_default().push(tension);
                     }
                 }
             }
-            made.extend(tensions.into_iter().map(|((line, segment), values)| EnsembleResult {
+        }
+        for (known, is_least) in tensions.into_iter().zip([false, true]) {
+            made.extend(known.into_iter().map(|((line, segment), values)| EnsembleResult {
                 name: segment.map_or_else(|| format!("tension of {line}"), |n| format!("tension of {line} {n}")),
                 unit: "N".to_owned(),
                 values,
@@ -102,7 +126,7 @@ impl Ensemble<'_> {
             }));
         }
         for result in &mut made {
-            result.missing = ended.len().saturating_sub(result.values.len());
+            result.missing = count.saturating_sub(result.values.len());
         }
         made
     }
@@ -112,6 +136,7 @@ impl Ensemble<'_> {
 mod tests {
     use super::*;
     use crate::kept::{KeptResult, LineRow};
+    use crate::record::CaseRecord;
 
     fn case(
         name: &str,
@@ -143,15 +168,16 @@ mod tests {
             case("a4", ("9", "4", 11), Done, &[("T", 5.0, "kN")]),
             case("a5", ("9", "5", 15), Done, &[("T", 7.0, "N")]),
         ];
+        let records: Records = records.into_iter().collect();
         let found = ensembles(&records);
         assert_eq!(found.len(), 2);
-        assert_eq!((found[0].cases.len(), found[0].repeated, found[0].count(Failed)), (4, 1, 1));
+        assert_eq!((found[0].len(), found[0].repeated, found[0].count(Failed)), (4, 1, 1));
         let results = found[0].results();
         assert_eq!((results[0].name.as_str(), results[0].unit.as_str()), ("T", "kN"));
         assert_eq!((results[0].values.as_slice(), results[0].missing), (&[5.0, 6.0][..], 1));
         assert_eq!((results[1].values.as_slice(), results[1].missing), (&[1.0][..], 2));
         assert_eq!(results.len(), 2);
-        assert_eq!(found[1].cases[0].case, "b1");
+        assert_eq!(found[1].cases().map(|case| case.case()).collect::<Vec<_>>(), ["b1"]);
     }
 
     #[test]
@@ -166,6 +192,7 @@ mod tests {
         let mut records = [1, 2].map(|seed| case(&format!("a{seed}"), ("9", "1", seed), CaseStatus::Done, &[]));
         records[0].lines = vec![row(1, 5.0, Some(1.0)), row(2, 4.0, None), row(1, 5.0, Some(1.0))];
         records[1].lines = vec![row(1, 6.0, Some(0.5))];
+        let records: Records = records.into_iter().collect();
         let found = ensembles(&records)[0].results();
         let found: Vec<_> = found.iter().map(|r| (r.name.as_str(), r.is_least, r.values.clone(), r.missing)).collect();
         assert_eq!(

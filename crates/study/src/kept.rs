@@ -71,7 +71,7 @@ impl KeptResult {
 }
 
 /// How the forces of a line were found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LineAnalysis {
     /// A static line whose ends move.
@@ -118,7 +118,7 @@ impl MooringCondition {
 }
 
 /// What a check of a line came to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LineVerdict {
     /// Met, by factors that are confirmed.
@@ -160,6 +160,38 @@ pub struct LossTime {
     pub time: f64,
     /// What is there in the intact case.
     pub reason: String,
+}
+
+/// How the tensions of a segment are judged over the seeds of a sea: the load is `mean` times the mean tension, plus `characteristic` times the
+/// statistic of the largest tensions, plus `added`; it holds up to the breaking load.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SeedCheck {
+    /// Factor on the mean tension.
+    pub mean: f64,
+    /// Factor on the characteristic tension.
+    pub characteristic: f64,
+    /// What does not depend on either (N).
+    pub added: f64,
+    /// Duration of the storm that is checked over that of the record.
+    pub storm_ratio: f64,
+    /// The statistic.
+    pub statistic: SeedStatistic,
+    /// Whether all factors of the check are confirmed.
+    pub is_confirmed: bool,
+}
+
+/// What of the largest tensions of the seeds of a sea is checked.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SeedStatistic {
+    /// The most probable one.
+    MostProbable,
+    /// Their mean.
+    Mean,
+    /// Their mean plus so many standard deviations: for each number of seeds, ascending, how many from it on.
+    MeanPlus(Vec<(usize, f64)>),
+    /// The code says what, and its numbers are not to be used: why.
+    Refused(String),
 }
 
 /// What a case says of a line, or of one of its segments. SI units; what was not computed is `None`.
@@ -240,11 +272,82 @@ pub struct LineRow {
     pub fatigue_confirmed: Option<bool>,
     /// Least length on the seabed (m).
     pub grounded_length: Option<f64>,
-    /// Largest horizontal offset of the body (m).
+    /// Largest horizontal distance (m) of the body at the first end of the line from where the model has it before the run.
     pub offset: Option<f64>,
+    /// How the segment is judged over seeds; none of a line at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub seeds: Option<Box<SeedCheck>>,
 }
 
 impl LineRow {
+    /// Its numbers, in the order of the fields; a number of maxima and the time of a loss are not among them.
+    pub(crate) fn numbers_mut(&mut self) -> [&mut Option<f64>; 23] {
+        let LineRow {
+            line: _,
+            segment: _,
+            analysis: _,
+            condition: _,
+            lost: _,
+            loss: _,
+            mean_tension,
+            dynamic_tension,
+            max_tension,
+            largest_tension,
+            least_tension,
+            maxima: _,
+            mpm,
+            mpm_low,
+            mpm_high,
+            breaking_load,
+            utilisation,
+            safety_factor,
+            required_safety_factor,
+            verdict: _,
+            code: _,
+            factor_source: _,
+            screening_ratio,
+            anchor_horizontal,
+            anchor_vertical,
+            uplift: _,
+            anchor_capacity,
+            anchor_safety_factor,
+            anchor_required_factor,
+            anchor_verdict: _,
+            annual_damage,
+            design_life,
+            fatigue_factor,
+            fatigue_confirmed: _,
+            grounded_length,
+            offset,
+            seeds: _,
+        } = self;
+        [
+            mean_tension,
+            dynamic_tension,
+            max_tension,
+            largest_tension,
+            least_tension,
+            mpm,
+            mpm_low,
+            mpm_high,
+            breaking_load,
+            utilisation,
+            safety_factor,
+            required_safety_factor,
+            screening_ratio,
+            anchor_horizontal,
+            anchor_vertical,
+            anchor_capacity,
+            anchor_safety_factor,
+            anchor_required_factor,
+            annual_damage,
+            design_life,
+            fatigue_factor,
+            grounded_length,
+            offset,
+        ]
+    }
+
     /// Line and segment as tables have them: `L1 2`, or `L1` of the line as a whole.
     pub fn label(&self) -> String {
         self.segment.map_or_else(|| self.line.clone(), |segment| format!("{} {segment}", self.line))

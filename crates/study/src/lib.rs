@@ -23,6 +23,7 @@ pub mod lost;
 pub mod packing;
 pub mod parts;
 pub mod record;
+pub mod records;
 pub mod runner;
 pub mod seeds;
 pub mod stiffness;

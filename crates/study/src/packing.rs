@@ -4,7 +4,8 @@
 //! division has.
 
 use crate::ensemble::is_seed_column;
-use crate::record::{CaseRecord, CaseStatus};
+use crate::record::CaseStatus;
+use crate::records::Records;
 use crate::table::Case;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -59,20 +60,21 @@ pub fn parts_of(seconds: &[f64], wanted: f64) -> usize {
 
 /// Seconds that cases are expected to take: what the case itself took, else the mean of cases that differ from it in their seeds alone,
 /// else the mean of all. Failed cases are left out, unless none has ended otherwise. `None` where no case has been measured.
-pub fn expected_seconds(cases: &[&Case], columns: &[String], records: &[CaseRecord]) -> Option<Vec<f64>> {
-    let has_ended = records.iter().any(|record| record.status != CaseStatus::Failed);
-    let measured =
-        || records.iter().filter(|r| r.seconds.is_finite() && (!has_ended || r.status != CaseStatus::Failed));
+pub fn expected_seconds(cases: &[&Case], columns: &[String], records: &Records) -> Option<Vec<f64>> {
+    let has_ended = records.iter().any(|record| record.status() != CaseStatus::Failed);
+    let measured = records
+        .iter()
+        .filter(|record| record.seconds().is_finite() && (!has_ended || record.status() != CaseStatus::Failed));
     let (mut sum, mut count) = (0.0, 0.0);
     let mut own: HashMap<&str, f64> = HashMap::new();
     let mut alike: HashMap<Vec<(&str, &str)>, (f64, f64)> = HashMap::new();
-    for record in measured() {
-        sum += record.seconds;
+    for record in measured {
+        sum += record.seconds();
         count += 1.0;
-        own.insert(&record.case, record.seconds);
-        let inputs = record.values.iter().filter(|(name, _)| !is_seed_column(name));
-        let known = alike.entry(inputs.map(|(name, value)| (name.as_str(), value.as_str())).collect()).or_default();
-        known.0 += record.seconds;
+        own.insert(record.case(), record.seconds());
+        let inputs = record.values().filter(|(name, _)| !is_seed_column(name));
+        let known = alike.entry(inputs.collect()).or_default();
+        known.0 += record.seconds();
         known.1 += 1.0;
     }
     if count == 0.0 {
@@ -97,6 +99,7 @@ pub fn sample(cases: usize, wanted: usize) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::record::CaseRecord;
 
     #[test]
     fn packing_is_that_by_hand() {
@@ -154,8 +157,11 @@ mod tests {
         let records = [record(&a, Done, 10.0), record(&b, Done, 20.0), record(&c, Done, 60.0), record(&e, Failed, 0.1)];
         let columns = ["HS".to_owned(), "member".to_owned()];
         // a again, d as a and b, e as the mean of the three that have not failed
-        assert_eq!(expected_seconds(&[&a, &d, &e], &columns, &records), Some(vec![10.0, 15.0, 30.0]));
-        assert_eq!(expected_seconds(&[&e], &columns, &records[3..]), Some(vec![0.1]));
-        assert_eq!(expected_seconds(&[&e], &columns, &[]), None);
+        let seconds = |cases: &[&Case], records: &[CaseRecord]| {
+            expected_seconds(cases, &columns, &records.iter().cloned().collect())
+        };
+        assert_eq!(seconds(&[&a, &d, &e], &records), Some(vec![10.0, 15.0, 30.0]));
+        assert_eq!(seconds(&[&e], &records[3..]), Some(vec![0.1]));
+        assert_eq!(seconds(&[&e], &[]), None);
     }
 }

@@ -5,6 +5,7 @@
 //! it may be stopped and run again at any time.
 
 use crate::record::{CaseRecord, CaseStatus, decode};
+use crate::records::RecordView;
 use crate::runner::{
     Batch, BegunStudy, Followed, Keep, Lane, MAX_FAILED_FOLDERS, Progress, ResultsFile, RunCase, StudyEnd, StudyPlan,
     drop_stray_folders, keepers,
@@ -117,7 +118,7 @@ pub fn divide(
     let mut places = vec![text.len()];
     for places_of_part in packed {
         let cases: Vec<&Case> = places_of_part.iter().filter_map(|place| begun.pending.get(*place).copied()).collect();
-        let intact = begun.intact_records(&cases).collect();
+        let intact = begun.intact_records(&cases);
         serde_json::to_writer(&mut text, &PartLine { cases, intact }).map_err(wrong)?;
         text.push(b'\n');
         places.push(text.len());
@@ -217,7 +218,7 @@ impl Part {
         let pending: Vec<&Case> = self.cases.iter().filter(|case| !names.contains(case.name.as_str())).collect();
         let follows: HashSet<&str> = pending.iter().filter_map(|case| case.intact.as_deref()).collect();
         let ended = self.intact.iter().chain(&done).filter(|record| follows.contains(record.case.as_str()));
-        let followed = Followed::new(&pending, ended);
+        let followed = Followed::new(&pending, ended.cloned());
         let kept_cases = self.folder.join(KEPT_CASES);
         let results = Arc::new(ResultsFile::new(results));
         let lanes = (0..jobs.clamp(1, pending.len().max(1)))
@@ -258,14 +259,15 @@ pub fn collect(
     let kept_cases = folder.join(KEPT_CASES);
     files.make_folder(&kept_cases).map_err(StudyError::of(&kept_cases))?;
     let study = Study::open(folder)?;
-    drop_stray_folders(folder, &study, keep, files)?;
     let stays = keepers(&study, keep);
-    let is_missing = |record: &&CaseRecord| {
-        record.status != CaseStatus::Failed
-            && stays.contains(record.case.as_str())
-            && !kept_cases.join(&record.case).is_dir()
+    drop_stray_folders(folder, &stays, files)?;
+    let is_missing = |record: &RecordView| {
+        record.status() != CaseStatus::Failed
+            && stays.contains(record.case())
+            && !kept_cases.join(record.case()).is_dir()
     };
-    let missing: Vec<&CaseRecord> = study.records.iter().filter(is_missing).collect();
+    let missing: Vec<CaseRecord> = study.records.iter().filter(is_missing).map(|record| record.to_record()).collect();
+    drop(stays);
     let (next, failed) = (AtomicUsize::new(0), Mutex::new(None));
     let make = |worker: usize| -> Result<(), StudyError> {
         let running = scratch.join(format!("running-{worker}"));
@@ -273,10 +275,10 @@ pub fn collect(
             let Some(record) = missing.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
             // a record that this crate has written has cells that it can read
             let Ok((case, columns)) = Case::from_record(record) else { continue };
-            let intact = case.intact.as_ref().and_then(|name| study.records.iter().find(|other| other.case == *name));
+            let intact = case.intact.as_ref().and_then(|name| study.records.of_case(name)).map(|view| view.to_record());
             files.remove_folder(&running).map_err(StudyError::of(&running))?;
             files.make_folder(&running).map_err(StudyError::of(&running))?;
-            if runner.run(&case, &columns, &running, intact).is_none() {
+            if runner.run(&case, &columns, &running, intact.as_ref()).is_none() {
                 break;
             }
             let to = kept_cases.join(&record.case);

@@ -2,6 +2,7 @@
 
 use crate::kept::{KeptResult, LineRow};
 use serde::{Deserialize, Serialize};
+use std::io::{self, BufRead};
 
 /// How a case ended.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -28,7 +29,7 @@ impl CaseStatus {
 }
 
 /// A file that a case has read.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct FileRead {
     /// Its path.
     pub path: String,
@@ -68,6 +69,15 @@ pub struct FollowedCase {
     pub case: String,
     /// Check sum of its peaks; `None` where it had failed.
     pub sum: Option<String>,
+}
+
+impl FollowedCase {
+    /// What is kept of an intact case with such an end and such peaks.
+    pub(crate) fn new(case: &str, status: CaseStatus, peaks: &[LinePeaks]) -> Self {
+        let text = (status != CaseStatus::Failed).then(|| serde_json::to_string(peaks).unwrap_or_default());
+        let sum = text.map(|text| format!("{:08x}", crc32fast::hash(text.as_bytes())));
+        FollowedCase { case: case.to_owned(), sum }
+    }
 }
 
 /// A finished case.
@@ -117,10 +127,7 @@ pub struct CaseRecord {
 impl CaseRecord {
     /// What a transient case that follows this one keeps of it.
     pub fn followed(&self) -> FollowedCase {
-        let ended = self.status != CaseStatus::Failed;
-        let text = ended.then(|| serde_json::to_string(&self.peaks).unwrap_or_default());
-        let sum = text.map(|text| format!("{:08x}", crc32fast::hash(text.as_bytes())));
-        FollowedCase { case: self.case.clone(), sum }
+        FollowedCase::new(&self.case, self.status, &self.peaks)
     }
 
     /// The line of the file, its end included.
@@ -135,17 +142,40 @@ impl CaseRecord {
 
 /// The records of a file, and how many of its bytes they take; what is behind them is half a record, as a kill leaves it.
 pub fn decode(bytes: &[u8]) -> (Vec<CaseRecord>, usize) {
-    let (mut records, mut valid) = (Vec::new(), 0);
-    while let Some(length) = bytes.get(valid..).and_then(|rest| rest.iter().position(|byte| *byte == b'\n')) {
-        let line = bytes.get(valid..valid + length).and_then(|line| std::str::from_utf8(line).ok());
-        let record = line.and_then(|line| {
+    let mut records = Vec::new();
+    // bytes in memory are read without an error
+    let valid = decode_each(bytes, &mut |record| records.push(record)).map_or(0, |end| end.valid);
+    (records, usize::try_from(valid).unwrap_or(bytes.len()))
+}
+
+/// Where the records of a file end.
+pub(crate) struct RecordsEnd {
+    /// Bytes of whole records.
+    pub(crate) valid: u64,
+    /// Whether half a record is behind them.
+    pub(crate) is_torn: bool,
+}
+
+/// Gives each record of a file, up to half a record as a kill leaves it. One is held at a time.
+///
+/// # Errors
+/// What the system says as the file is read.
+pub(crate) fn decode_each(mut file: impl BufRead, take: &mut dyn FnMut(CaseRecord)) -> io::Result<RecordsEnd> {
+    let (mut line, mut valid) = (Vec::new(), 0);
+    loop {
+        line.clear();
+        let length = file.read_until(b'\n', &mut line)?;
+        if length == 0 {
+            return Ok(RecordsEnd { valid, is_torn: false });
+        }
+        let text = line.strip_suffix(b"\n").and_then(|line| std::str::from_utf8(line).ok());
+        let record = text.and_then(|line| {
             let (sum, text) = line.split_once(' ')?;
             let fits = u32::from_str_radix(sum, 16).ok()? == crc32fast::hash(text.as_bytes());
             if fits { serde_json::from_str(text).ok() } else { None }
         });
-        let Some(record) = record else { break };
-        records.push(record);
-        valid += length + 1;
+        let Some(record) = record else { return Ok(RecordsEnd { valid, is_torn: true }) };
+        take(record);
+        valid += length as u64;
     }
-    (records, valid)
 }

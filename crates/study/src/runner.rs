@@ -1,16 +1,20 @@
 //! Runs the cases of a study side by side, keeps their records, and goes on where an earlier start ended.
 
+use crate::kept::LineRow;
 use crate::record::{CaseRecord, CaseStatus, FileRead};
+use crate::records::{RecordView, Records};
 use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, results_file};
 use crate::table::{Case, CaseTable};
 use serde::{Deserialize, Serialize};
+use std::borrow::Borrow;
 use std::collections::{HashMap, HashSet};
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-/// Longest time that a record waits for the disk.
+/// Longest time that a record waits for the disk: however long the next case takes, a kill loses no more.
 const SYNC_AFTER: Duration = Duration::from_secs(1);
 
 /// Failed cases that keep the folder of their answers, unless all cases do: a study in which all fail is not to fill the disk.
@@ -55,6 +59,8 @@ pub struct StudyPlan {
     pub keep: Keep,
     /// Whether failed cases of an earlier start are run again.
     pub retry_failed: bool,
+    /// Scatter of the most probable maximum over seeds that a number of seeds is said for (per cent).
+    pub scatter_percent: f64,
 }
 
 /// A way to run a case.
@@ -103,34 +109,74 @@ impl Governing {
         if record.status == CaseStatus::Failed {
             return (false, Vec::new());
         }
-        let results = record.results.iter().flat_map(|r| {
-            let name = r.name.to_ascii_uppercase();
-            [(format!("largest {name}"), r.value), (format!("least {name}"), -r.value)]
-        });
+        let results = record.results.iter().map(|result| (result.name.as_str(), result.value));
         let judged = record.lines.iter().filter(|_| record.judges_tension());
-        let lines = judged.filter_map(|row| {
-            let (kind, value) = row.severity()?;
-            Some((format!("line {} {} {kind:?}", row.label(), row.condition.word()), value))
-        });
-        let mut gone = Vec::new();
-        for (key, value) in results.chain(lines) {
-            let best = self.best.get(&key);
-            // of equal values the case whose name comes first, whatever the order they end in
-            if best.is_some_and(|(old, case)| value < *old || (value == *old && record.case >= *case)) {
-                continue;
-            }
-            if let Some((_, before)) = self.best.insert(key, (value, record.case.clone())) {
-                let left = self.held.entry(before.clone()).or_default();
-                *left = left.saturating_sub(1);
-                if *left == 0 {
-                    gone.push(before);
-                }
-            }
-            *self.held.entry(record.case.clone()).or_default() += 1;
+        self.offer_values(&record.case, results, judged)
+    }
+
+    /// The same of a record among others.
+    fn offer_view(&mut self, record: RecordView) {
+        if record.status() == CaseStatus::Failed {
+            return;
         }
-        gone.retain(|case| self.held.get(case).copied().unwrap_or(0) == 0);
+        let results = record.results().map(|((name, _, _), value)| (name.as_str(), value));
+        if record.line_count() > 0 && record.judges_tension() {
+            self.offer_values(record.case(), results, record.lines());
+        } else {
+            self.offer_values(record.case(), results, std::iter::empty::<LineRow>());
+        }
+    }
+
+    fn offer_values<'a>(
+        &mut self,
+        case: &str,
+        results: impl Iterator<Item = (&'a str, f64)>,
+        lines: impl Iterator<Item = impl Borrow<LineRow>>,
+    ) -> (bool, Vec<String>) {
+        let mut gone = Vec::new();
+        // one text for all: few values govern, and only their keys are kept
+        let mut key = String::new();
+        for (name, value) in results {
+            for (kind, value) in [("largest ", value), ("least ", -value)] {
+                key.clear();
+                key.push_str(kind);
+                key.extend(name.chars().map(|letter| letter.to_ascii_uppercase()));
+                self.offer_value(&key, value, case, &mut gone);
+            }
+        }
+        for row in lines {
+            let row = row.borrow();
+            let Some((kind, value)) = row.severity() else { continue };
+            key.clear();
+            // a text takes all that is written into it
+            let _ = write!(key, "line {} {} {kind:?}", row.label(), row.condition.word());
+            self.offer_value(&key, value, case, &mut gone);
+        }
+        gone.retain(|case| !self.governs(case));
         gone.dedup();
-        (self.held.get(&record.case).copied().unwrap_or(0) > 0, gone)
+        (self.governs(case), gone)
+    }
+
+    fn offer_value(&mut self, key: &str, value: f64, case: &str, gone: &mut Vec<String>) {
+        let best = self.best.get(key);
+        // of equal values the case whose name comes first, whatever the order they end in
+        if best.is_some_and(|(old, known)| value < *old || (value == *old && *case >= **known)) {
+            return;
+        }
+        if let Some((_, before)) = self.best.insert(key.to_owned(), (value, case.to_owned())) {
+            let left = self.held.entry(before.clone()).or_default();
+            *left = left.saturating_sub(1);
+            if *left == 0 {
+                self.held.remove(&before);
+                gone.push(before);
+            }
+        }
+        *self.held.entry(case.to_owned()).or_default() += 1;
+    }
+
+    /// Whether a case governs.
+    fn governs(&self, case: &str) -> bool {
+        self.held.get(case).copied().unwrap_or(0) > 0
     }
 }
 
@@ -149,19 +195,19 @@ pub(crate) struct Followed {
 
 impl Followed {
     /// What cases that are to run can follow: those of them that have transient ones behind them, and the records of earlier ones.
-    pub(crate) fn new<'a>(pending: &[&Case], ended: impl Iterator<Item = &'a CaseRecord>) -> Self {
-        let ended = ended.map(|record| (record.case.clone(), Some(Arc::new(record.clone())))).collect();
+    pub(crate) fn new(pending: &[&Case], ended: impl Iterator<Item = CaseRecord>) -> Self {
+        let ended = ended.map(|record| (record.case.clone(), Some(Arc::new(record)))).collect();
         let expected = pending.iter().map(|case| case.name.clone()).collect();
         Followed { ended: Mutex::new(ended), expected, news: Condvar::new() }
     }
 
     /// Takes up a case that has ended, where another follows it.
-    fn end(&self, case: &Case, record: Option<&CaseRecord>) {
+    fn end(&self, case: &Case, record: impl FnOnce() -> Option<CaseRecord>) {
         if case.peaks_of.is_empty() {
             return;
         }
         let mut ended = self.ended.lock().unwrap_or_else(PoisonError::into_inner);
-        ended.insert(case.name.clone(), record.cloned().map(Arc::new));
+        ended.insert(case.name.clone(), record().map(Arc::new));
         self.news.notify_all();
     }
 
@@ -183,33 +229,28 @@ impl Followed {
 /// A file of records, only ever added to.
 pub(crate) struct ResultsFile {
     path: PathBuf,
-    /// When it was seen through to the disk, and whether more has been added since.
-    synced: Mutex<(Option<Instant>, bool)>,
+    /// Whether it holds more than was seen through to the disk.
+    is_ahead: Mutex<bool>,
 }
 
 impl ResultsFile {
     pub(crate) fn new(path: PathBuf) -> Self {
-        ResultsFile { path, synced: Mutex::new((None, false)) }
+        ResultsFile { path, is_ahead: Mutex::new(false) }
     }
 
-    /// Adds bytes, and sees them through to the disk where the last time was a second ago.
+    /// Adds bytes.
     fn append(&self, bytes: &[u8], files: &dyn Files) -> Result<(), StudyError> {
-        let mut synced = self.synced.lock().unwrap_or_else(PoisonError::into_inner);
-        files.append(&self.path, bytes).map_err(StudyError::of(&self.path))?;
-        synced.1 = true;
-        if synced.0.is_none_or(|last| last.elapsed() >= SYNC_AFTER) {
-            files.sync(&self.path).map_err(StudyError::of(&self.path))?;
-            *synced = (Some(Instant::now()), false);
-        }
-        Ok(())
+        let mut is_ahead = self.is_ahead.lock().unwrap_or_else(PoisonError::into_inner);
+        *is_ahead = true;
+        files.append(&self.path, bytes).map_err(StudyError::of(&self.path))
     }
 
     /// Sees what was added through to the disk.
     fn sync(&self, files: &dyn Files) -> Result<(), StudyError> {
-        let mut synced = self.synced.lock().unwrap_or_else(PoisonError::into_inner);
-        if synced.1 {
+        let mut is_ahead = self.is_ahead.lock().unwrap_or_else(PoisonError::into_inner);
+        if *is_ahead {
             files.sync(&self.path).map_err(StudyError::of(&self.path))?;
-            synced.1 = false;
+            *is_ahead = false;
         }
         Ok(())
     }
@@ -257,21 +298,37 @@ impl Batch<'_> {
         let progress = Progress { total: self.pending.len(), ..Progress::default() };
         let state = Mutex::new((governing, progress, None));
         let shared = Shared { batch: self, next: AtomicUsize::new(0), state };
+        let give_up = |error: StudyError| {
+            self.stop.store(true, Ordering::Relaxed);
+            shared.state.lock().unwrap_or_else(PoisonError::into_inner).2.get_or_insert(error);
+        };
+        let (are_over, news) = (Mutex::new(false), Condvar::new());
         std::thread::scope(|scope| {
-            for lane in &self.lanes {
-                let shared = &shared;
-                scope.spawn(move || {
-                    if let Err(error) = work(shared, lane) {
-                        self.stop.store(true, Ordering::Relaxed);
-                        if let Ok(mut state) = shared.state.lock() {
-                            state.2.get_or_insert(error);
-                        }
-                    }
-                });
+            scope.spawn(|| self.sync_until(&are_over, &news).unwrap_or_else(give_up));
+            let (shared, give_up) = (&shared, &give_up);
+            let begin = |lane| scope.spawn(move || work(shared, lane).unwrap_or_else(give_up));
+            let workers: Vec<_> = self.lanes.iter().map(begin).collect();
+            let ended: Vec<_> = workers.into_iter().map(|worker| worker.join()).collect();
+            *are_over.lock().unwrap_or_else(PoisonError::into_inner) = true;
+            news.notify_all();
+            if let Some(panic) = ended.into_iter().find_map(Result::err) {
+                std::panic::resume_unwind(panic);
             }
         });
         let (_, progress, error) = shared.state.into_inner().unwrap_or_else(PoisonError::into_inner);
         error.map_or(Ok(progress), Err)
+    }
+
+    /// Sees records through to the disk every second until the workers are over.
+    fn sync_until(&self, are_over: &Mutex<bool>, news: &Condvar) -> Result<(), StudyError> {
+        let mut over = are_over.lock().unwrap_or_else(PoisonError::into_inner);
+        while !*over {
+            over = news.wait_timeout(over, SYNC_AFTER).unwrap_or_else(PoisonError::into_inner).0;
+            for lane in &self.lanes {
+                lane.results.sync(self.files)?;
+            }
+        }
+        Ok(())
     }
 
     /// Runs the cases of which none governs anything before.
@@ -290,7 +347,7 @@ pub struct BegunStudy<'a> {
     /// Cases to run, in the order of the table, transient ones behind the others.
     pub pending: Vec<&'a Case>,
     /// The records of earlier starts.
-    pub records: Vec<CaseRecord>,
+    pub records: Records,
     /// What was kept, and what is run again.
     pub end: StudyEnd,
     governing: Governing,
@@ -331,13 +388,15 @@ pub fn begin_study<'a>(
         seed: plan.seed,
         version: plan.version.clone(),
         start,
+        scatter_percent: plan.scatter_percent,
         cases: plan.table.cases.iter().map(|case| case.name.clone()).collect(),
     };
     let text = serde_json::to_vec_pretty(&info).map_err(|error| StudyError::of(&info_path)(error.into()))?;
     files.write(&info_path, &text).map_err(StudyError::of(&info_path))?;
 
     let records = earlier.map(|study| study.records).unwrap_or_default();
-    let known: HashMap<&str, &CaseRecord> = records.iter().map(|record| (record.case.as_str(), record)).collect();
+    let known: HashMap<&str, RecordView> = records.iter().map(|record| (record.case(), record)).collect();
+    let mut unchanged: Option<RecordView> = None;
     let (mut end, mut governing, mut pending) = (StudyEnd::default(), Governing::default(), Vec::new());
     let (mut followed, mut behind) = (Followed::default(), Vec::new());
     // intact cases before the transient ones that follow them: no worker waits while there is other work
@@ -349,19 +408,22 @@ pub fn begin_study<'a>(
             list.push(case);
             continue;
         };
-        let reason = reason_to_run_again(plan, case, record, runner).or_else(|| {
+        // the files of a record like the last one have been looked at
+        let has_read_the_same = unchanged.is_some_and(|last| last.is_like(record));
+        let reason = reason_to_run_again(plan, case, record, (runner, has_read_the_same)).or_else(|| {
             let intact = case.intact.as_deref()?;
             if followed.expected.contains(intact) {
                 return Some(format!("its intact case {intact} is run again"));
             }
             let now = known.get(intact).map(|record| record.followed());
-            (now != record.intact).then(|| format!("its intact case {intact} has changed"))
+            (now.as_ref() != record.intact()).then(|| format!("its intact case {intact} has changed"))
         });
         match reason {
             None => {
                 end.kept += 1;
-                governing.offer(record);
-                followed.end(case, Some(record));
+                governing.offer_view(*record);
+                followed.end(case, || Some(record.to_record()));
+                unchanged = Some(*record);
             }
             Some(reason) => {
                 end.again.push((case.name.clone(), reason));
@@ -387,33 +449,25 @@ pub fn run_study(
     stop: &AtomicBool,
     told: &(dyn Fn(Progress) + Sync),
 ) -> Result<StudyEnd, StudyError> {
-    begin_study(plan, files, runner)?.run(plan, files, runner, stop, told)
+    let begun = begin_study(plan, files, runner)?;
+    let BegunStudy { start, pending, records: _, mut end, governing, followed } = begun;
+    end.progress = run_here(plan, (start, pending, followed), governing, files, runner, stop, told)?;
+    Ok(end)
 }
 
 impl BegunStudy<'_> {
-    /// Runs the pending cases.
-    ///
-    /// # Errors
-    /// Files that cannot be written; the cases that are done stay done.
-    pub fn run(
-        self,
-        plan: &StudyPlan,
-        files: &dyn Files,
-        runner: &dyn RunCase,
-        stop: &AtomicBool,
-        told: &(dyn Fn(Progress) + Sync),
-    ) -> Result<StudyEnd, StudyError> {
-        let BegunStudy { start, pending, records: _, mut end, governing, followed } = self;
-        end.progress = run_here(plan, (start, pending, followed), governing, files, runner, stop, told)?;
-        Ok(end)
-    }
-
     /// The records of the intact cases that some of the pending ones follow and that are not run again themselves.
-    pub(crate) fn intact_records(&self, cases: &[&Case]) -> impl Iterator<Item = &CaseRecord> {
-        let pending: HashSet<&str> = self.pending.iter().map(|case| case.name.as_str()).collect();
-        let followed = cases.iter().filter_map(|case| case.intact.as_deref());
-        let wanted: HashSet<String> = followed.filter(|name| !pending.contains(name)).map(str::to_owned).collect();
-        self.records.iter().filter(move |record| wanted.contains(&record.case))
+    pub(crate) fn intact_records(&self, cases: &[&Case]) -> Vec<CaseRecord> {
+        let mut wanted: HashSet<&str> = cases.iter().filter_map(|case| case.intact.as_deref()).collect();
+        if !wanted.is_empty() {
+            self.pending.iter().for_each(|case| {
+                wanted.remove(case.name.as_str());
+            });
+        }
+        if wanted.is_empty() {
+            return Vec::new();
+        }
+        self.records.iter().filter(|record| wanted.contains(record.case())).map(|record| record.to_record()).collect()
     }
 
     /// Places of the pending cases that have to be run by one process, intact ones with the transient ones that follow them.
@@ -450,12 +504,12 @@ impl BegunStudy<'_> {
             names.extend(case.intact.as_deref());
         }
         let sample: Vec<&Case> = self.pending.iter().copied().filter(|c| names.contains(c.name.as_str())).collect();
-        let followed = Followed::new(&sample, self.intact_records(&sample));
+        let followed = Followed::new(&sample, self.intact_records(&sample).into_iter());
         let governing = std::mem::take(&mut self.governing);
         self.end.progress = run_here(plan, (self.start, sample, followed), governing, files, runner, stop, told)?;
         self.records = Study::open(&plan.folder)?.records;
-        let of_start = self.records.iter().filter(|record| record.start == self.start);
-        let done: HashSet<&str> = of_start.map(|record| record.case.as_str()).collect();
+        let of_start = self.records.iter().filter(|record| record.start() == self.start);
+        let done: HashSet<&str> = of_start.map(|record| record.case()).collect();
         self.pending.retain(|case| !done.contains(case.name.as_str()));
         Ok(())
     }
@@ -491,37 +545,32 @@ fn run_here(
         told,
     };
     let progress = batch.run(governing)?;
-    drop_stray_folders(&plan.folder, &Study::open(&plan.folder)?, plan.keep, files)?;
+    let study = Study::open(&plan.folder)?;
+    drop_stray_folders(&plan.folder, &keepers(&study, plan.keep), files)?;
     Ok(progress)
 }
 
 /// Which of the cases of a study keep the folder of their answers.
 pub(crate) fn keepers(study: &Study, keep: Keep) -> HashSet<&str> {
     let mut governing = Governing::default();
-    for record in &study.records {
-        governing.offer(record);
+    if keep == Keep::Governing {
+        study.records.iter().for_each(|record| governing.offer_view(record));
     }
     let mut failed = 0;
-    let stays = |record: &&CaseRecord| {
-        if record.status == CaseStatus::Failed {
+    let stays = |record: &RecordView| {
+        if record.status() == CaseStatus::Failed {
             failed += 1;
             if failed > MAX_FAILED_FOLDERS && keep != Keep::Everything {
                 return false;
             }
         }
-        keeps(keep, record.status, governing.held.get(&record.case).copied().unwrap_or(0) > 0)
+        keeps(keep, record.status(), governing.governs(record.case()))
     };
-    study.records.iter().filter(stays).map(|record| record.case.as_str()).collect()
+    study.records.iter().filter(stays).map(|record| record.case()).collect()
 }
 
 /// Drops kept folders of cases that no longer keep theirs: of another table, and of what was stopped between a folder and its record.
-pub(crate) fn drop_stray_folders(
-    folder: &Path,
-    study: &Study,
-    keep: Keep,
-    files: &dyn Files,
-) -> Result<(), StudyError> {
-    let stays = keepers(study, keep);
+pub(crate) fn drop_stray_folders(folder: &Path, stays: &HashSet<&str>, files: &dyn Files) -> Result<(), StudyError> {
     let kept_cases = folder.join(KEPT_CASES);
     for entry in std::fs::read_dir(&kept_cases).map_err(StudyError::of(&kept_cases))? {
         let entry = entry.map_err(StudyError::of(&kept_cases))?;
@@ -544,26 +593,32 @@ fn keeps(keep: Keep, status: CaseStatus, governs: bool) -> bool {
     }
 }
 
-/// Why a finished case has to be run again.
-fn reason_to_run_again(plan: &StudyPlan, case: &Case, record: &CaseRecord, runner: &dyn RunCase) -> Option<String> {
-    let values = plan.table.columns.iter().cloned().zip(case.values.iter().cloned());
-    if record.status == CaseStatus::Failed && plan.retry_failed {
+/// Why a finished case has to be run again; the files it has read are not looked at where they are known to be the same.
+fn reason_to_run_again(
+    plan: &StudyPlan,
+    case: &Case,
+    record: &RecordView,
+    (runner, has_read_the_same): (&dyn RunCase, bool),
+) -> Option<String> {
+    let values = plan.table.columns.iter().map(String::as_str).zip(case.values.iter().map(String::as_str));
+    if record.status() == CaseStatus::Failed && plan.retry_failed {
         return Some("it failed".into());
     }
-    if !values.eq(record.values.iter().cloned()) {
+    if !values.eq(record.values()) {
         return Some("its row has changed".into());
     }
-    if record.seed != case.seed {
+    if record.seed() != case.seed {
         return Some("its seed has changed".into());
     }
-    if record.version != plan.version {
-        return Some(format!("it is of version {}", record.version));
+    if record.version() != plan.version {
+        return Some(format!("it is of version {}", record.version()));
     }
-    if let Some(changed) = record.read.iter().find(|read| !runner.is_unchanged(read)) {
+    let changed = || record.read().iter().find(|read| !runner.is_unchanged(read));
+    if let Some(changed) = (!has_read_the_same).then(changed).flatten() {
         return Some(format!("{} has changed", changed.path));
     }
-    let has_peaks = |line: &&String| record.peaks.iter().any(|peaks| peaks.line.eq_ignore_ascii_case(line));
-    let line = case.peaks_of.iter().find(|line| !has_peaks(line)).filter(|_| record.status != CaseStatus::Failed)?;
+    let has_peaks = |line: &&String| record.peaks().iter().any(|peaks| peaks.line.eq_ignore_ascii_case(line));
+    let line = case.peaks_of.iter().find(|line| !has_peaks(line)).filter(|_| record.status() != CaseStatus::Failed)?;
     Some(format!("it has kept no peaks of {line}, which a transient case loses"))
 }
 
@@ -596,7 +651,7 @@ fn work(shared: &Shared, lane: &Lane) -> Result<(), StudyError> {
         files.remove_folder(running).map_err(StudyError::of(running))?;
         files.make_folder(running).map_err(StudyError::of(running))?;
         let made = run_case(shared, case, running);
-        shared.batch.followed.end(case, made.as_ref());
+        shared.batch.followed.end(case, || made.clone());
         let Some(mut record) = made else {
             if case.intact.is_some() && !shared.batch.stop.load(Ordering::Relaxed) {
                 continue;

@@ -185,6 +185,7 @@ class Dynamics:
         density: float,
         gravity: float,
         current: tuple[float, ...],
+        environment: str | None,
         seabed_stiffness: float,
         seabed_damping: float,
         friction: float,
@@ -215,5 +216,5 @@ def solve(
     raise_: bool,
     threads: int,
 ) -> _Solved: ...
-def read_study(folder: _Path) -> tuple[Table, Table, Table]: ...
+def read_study(folder: _Path) -> tuple[Table, Table, Table, Table]: ...
 def run_program(arguments: list[str], interpreter: _Path) -> int: ...

@@ -30,7 +30,9 @@ class Dynamics:
     the bottom, `cd_normal`, `cd_axial` (on the skin), `ca_normal`, `ca_axial`, `anchor` and `fairlead` (x, y, z in m); where wanted `elements`
     (50), `axial_damping` (N s), `ei` (N m2, pinned ends). Coefficients have no usual values: zero must be said. `depth` puts a flat bottom below
     the lines (m), with `seabed_stiffness` (N/m3, on diameter times length), `seabed_damping` (N s/m3) and Coulomb `friction`; without it they
-    hang free. `dt` is the longest step (s): a call that goes further is cut in equal ones, the fairleads on cubics between.
+    hang free. `environment` has options of an `&ENV` record, in metres, seconds and degrees: waves by a spectrum and a seed
+    (`-SEA JONSWAP 180 9 12 3.3 -SEED 5 -RAMP 60`) or one by one (`-WAVES T A PHASE DIR ..`), current by depth, wind; its velocities come to
+    `current`, and the lines feel it as those of `TDOM` do, the waves from time 0 on. `dt` is the longest step (s): a call that goes further is cut in equal ones, the fairleads on cubics between.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class Dynamics:
         density: float = 1025.0,
         gravity: float = 9.80665,
         current: Sequence[float] = (0.0, 0.0, 0.0),
+        environment: str | None = None,
         seabed_stiffness: float = 3e6,
         seabed_damping: float = 3e5,
         friction: float = 0.0,
@@ -52,6 +55,7 @@ class Dynamics:
             density=density,
             gravity=gravity,
             current=tuple(map(float, current)),
+            environment=environment,
             seabed_stiffness=seabed_stiffness,
             seabed_damping=seabed_damping,
             friction=friction,

@@ -32,14 +32,15 @@ class Study(NamedTuple):
     lines: Table
     #: Extremes over seeds: a row a result of each ensemble, cases that differ in their seeds alone. No column where no two cases do.
     ensembles: Table
+    #: Checks of lines over seeds: a row a segment of each ensemble whose script ends in CODE_CHECK. No column where there is none.
+    seed_checks: Table
     #: What the program said at the end.
     summary: str
 
 
 def read(folder: Path) -> Study:
     """The tables of a study, done or under way."""
-    results, lines, ensembles = read_study(folder)
-    return Study(results, lines, ensembles, "")
+    return Study(*read_study(folder), "")
 
 
 def run(

@@ -77,7 +77,20 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let duration = args.option_number(&DURATION).or(of_env).filter(|d| *d > 0.0).ok_or_else(|| {
         Diagnostic::error("how long the environment lasts is not said", args.span).help("-DURATION, here or of &ENV")
     })?;
-    let lines = results::line_damages(run, &connectors(job, run, call)?, &job.model.fatigue, &events)
+    let mut links = connectors(job, run, call)?;
+    let mut left_out: Vec<String> = Vec::new();
+    if args.data.is_empty() {
+        // a line that is lost has no record of the whole run: it is counted in a part of the run in which it acts, or not at all
+        let layout = &run.history.layout;
+        let lost = results::lost_lines(run);
+        let acts = |name: &str| {
+            let link = layout.links.iter().position(|link| link.name == name);
+            link.is_some_and(|link| results::acts_throughout(run, link, &events))
+        };
+        left_out = { lost.before }.into_iter().chain(lost.during).filter(|name| !acts(name)).collect();
+        links.retain(|link| layout.links.get(*link).is_some_and(|link| !left_out.contains(&link.name)));
+    }
+    let lines = results::line_damages(run, &links, &job.model.fatigue, &events)
         .map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
     if lines.is_empty() {
         return Err(Diagnostic::error("none of the connectors is of a class with sections", args.span)
@@ -90,6 +103,12 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut table = results::scatter(&runs, factor)
         .map_err(|e| Diagnostic::error(e.to_string(), args.span).help("without -ADD a scatter begins anew"))?;
     job.scatter = runs;
+    if !left_out.is_empty() {
+        table.note(format!(
+            "{}: lost, and left out; -EVENTS BEG END chooses a part of the run in which it acts",
+            left_out.join(", ")
+        ));
+    }
     if let Some(run) = &job.run {
         add_model_column(&mut table, |name| run.model.idealisation(name));
         note_caveats(&run.model, std::slice::from_mut(&mut table));

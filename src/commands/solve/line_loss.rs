@@ -3,6 +3,10 @@
 use crate::commands::Job;
 use crate::commands::model::alter::select_connectors;
 use crate::commands::solve::equilibrium::to_diagnostic;
+use crate::commands::solve::tdom::FILE;
+use crate::report::run_log::{self, StoredRun};
+use std::fs::File;
+use std::path::PathBuf;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
@@ -58,6 +62,8 @@ pub struct IntactRun {
     pub peaks: Vec<LinePeaks>,
     /// Which instant of these the case is run with, from 0.
     pub instant: usize,
+    /// The folders of answers of the instants before it.
+    pub earlier: Vec<PathBuf>,
 }
 
 /// When lines are lost, and why then.
@@ -83,6 +89,8 @@ pub(crate) struct LineLoss {
     pub instant: LossInstant,
     /// How long the run goes on (s).
     follow: f64,
+    /// The same run with the loss at other instants: folders of answers, and when the lines are lost there.
+    earlier: Vec<(PathBuf, f64)>,
 }
 
 impl LineLoss {
@@ -117,6 +125,7 @@ impl LineLoss {
         let more = args.option(&INSTANTS).and_then(|g| g.integer(const { INSTANTS.integer("N") })).unwrap_or(0);
         let more = usize::try_from(more).unwrap_or(0);
         let own = args.option_number(&FOLLOW);
+        let mut earlier = Vec::new();
         let (instant, follow) = match (args.option_number(&LOSE_AT), &job.intact_run) {
             (Some(time), _) => {
                 let instant = LossInstant { number: 1, time, reason: "-LOSE_AT".into(), count: 1, before: None };
@@ -127,6 +136,8 @@ impl LineLoss {
                 let list =
                     instants(&intact.peaks, &lines, more, apart).map_err(|text| Diagnostic::error(text, given.span))?;
                 let count = list.len();
+                let times = list.iter().map(|instant| instant.time);
+                earlier = intact.earlier.iter().cloned().zip(times).take(intact.instant).collect();
                 let instant = list.into_iter().nth(intact.instant);
                 let instant = instant.ok_or_else(|| Diagnostic::error("the intact case has no peaks", given.span))?;
                 (LossInstant { count, number: intact.instant + 1, ..instant }, own.unwrap_or(PERIODS_BEHIND * apart))
@@ -137,7 +148,7 @@ impl LineLoss {
                 ));
             }
         };
-        Ok(Some(LineLoss { lines, instant, follow }))
+        Ok(Some(LineLoss { lines, instant, follow, earlier }))
     }
 
     /// The settings of a run that goes on behind the loss for long enough, with what is before it as its transient.
@@ -155,11 +166,35 @@ impl LineLoss {
 
     /// The event that takes the lines away.
     pub fn action(&self) -> Action {
-        Action {
-            name: "LOSE".into(),
-            when: Trigger::At(self.instant.time),
-            what: ActionKind::Release(self.lines.clone()),
+        self.action_at(self.instant.time)
+    }
+
+    fn action_at(&self, time: f64) -> Action {
+        Action { name: "LOSE".into(), when: Trigger::At(time), what: ActionKind::Release(self.lines.clone()) }
+    }
+
+    /// What a run of another instant has kept of the part before both losses, which is the same to the last digit: the longest there is.
+    /// `None` where a run keeps no snapshot so early, or was another one.
+    pub fn common_part(&self, made: &Run) -> Option<StoredRun> {
+        let mut found: Option<StoredRun> = None;
+        let is_own = |action: &Action| *action == self.action();
+        for (folder, time) in &self.earlier {
+            let limit = time.min(self.instant.time) - 0.5 * made.settings.dt;
+            let kept = File::open(folder.join(FILE)).ok().and_then(|mut file| run_log::read(&mut file, limit).ok());
+            let Some(kept) = kept else { continue };
+            let actions: Vec<Action> = made
+                .actions
+                .iter()
+                .map(|action| if is_own(action) { self.action_at(*time) } else { action.clone() })
+                .collect();
+            let is_same =
+                kept.fingerprint == made.fingerprint_with_actions(&actions) && kept.width == made.history.layout.width;
+            let is_longer = found.as_ref().is_none_or(|known| kept.snapshot.time > known.snapshot.time);
+            if is_same && is_longer {
+                found = Some(kept);
+            }
         }
+        found
     }
 
     /// The options that a record lacks to make the same run without an intact case.

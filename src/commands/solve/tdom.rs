@@ -305,8 +305,19 @@ fn open_file(job: &mut Job, call: &Call, made: &mut Run, loss: Option<&LineLoss>
     let file = job.output.folder.create(FILE).map_err(|e| refused(e.to_string()))?;
     keep_records(job, FILE, call, &loss.map_or_else(String::new, |loss| loss.missing_options(args)));
     let run = (made.fingerprint(), made.history.layout.width);
-    let log = RunLog::begin((file, path), run, job.states_taken());
-    Ok(Some(log.map_err(|e| refused(e.to_string()))?))
+    let mut log = RunLog::begin((file, path), run, job.states_taken()).map_err(|e| refused(e.to_string()))?;
+    if let Some(kept) = loss.and_then(|loss| loss.common_part(made)) {
+        let rows = kept.rows.chunks_exact(kept.width.max(1));
+        let written = { rows }.try_for_each(|row| log.row(row)).and_then(|()| log.snapshot(&kept.snapshot));
+        written.map_err(|e| refused(e.to_string()))?;
+        let time = kept.snapshot.time;
+        made.resume_from(&kept.snapshot, kept.rows).map_err(|e| to_diagnostic(e, &job.model, args.span, job.units))?;
+        job.remark(
+            format!("goes on from {time} s of the run of another instant, which is the same up to there"),
+            args.span,
+        );
+    }
+    Ok(Some(log))
 }
 
 /// Writes the records that make the model of a run beside the file of the run, its own record last, with options that make it complete:

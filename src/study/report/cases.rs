@@ -26,7 +26,7 @@ const OFFSETS: [&str; 3] = ["OFFSET", "EXCURSION", "DISPLACEMENT"];
 /// The columns of the table of cases, in its order; seed_of serves seeds alone.
 fn input_names<'a>(view: &StudyView<'a>) -> Vec<&'a str> {
     let mut names: Vec<&str> = Vec::new();
-    for record in &view.study.records {
+    for record in view.records {
         for (name, _) in &record.values {
             if !names.contains(&name.as_str()) && !name.eq_ignore_ascii_case(windlass_study::table::SEED_OF) {
                 names.push(name);
@@ -39,7 +39,7 @@ fn input_names<'a>(view: &StudyView<'a>) -> Vec<&'a str> {
 /// The named results, with their units, in the order they come in.
 fn result_names<'a>(view: &StudyView<'a>) -> Vec<(&'a str, &'a str)> {
     let mut names: Vec<(&str, &str)> = Vec::new();
-    for record in &view.study.records {
+    for record in view.records {
         for result in &record.results {
             if !names.iter().any(|(name, _)| name.eq_ignore_ascii_case(&result.name)) {
                 names.push((&result.name, &result.unit));
@@ -81,7 +81,7 @@ fn with_unit((name, unit): (&str, &str)) -> String {
 pub fn direction_column(view: &StudyView, asked: Option<&str>) -> Result<Option<String>, String> {
     let names = input_names(view);
     let is_numeric = |name: &str| {
-        view.study.records.iter().all(|r| input(r, name).is_none_or(|v| v.parse::<f64>().is_ok_and(f64::is_finite)))
+        view.records.iter().all(|r| input(r, name).is_none_or(|v| v.parse::<f64>().is_ok_and(f64::is_finite)))
     };
     match asked {
         Some(asked) => {
@@ -111,7 +111,7 @@ pub fn environment_table(view: &StudyView) -> ReportTable {
     for name in input_names(view) {
         let mut values: Vec<&str> = Vec::new();
         let mut known: BTreeSet<&str> = BTreeSet::new();
-        for value in view.study.records.iter().filter_map(|record| input(record, name)) {
+        for value in view.records.iter().filter_map(|record| input(record, name)) {
             if known.insert(value) {
                 values.push(value);
             }
@@ -369,7 +369,7 @@ pub fn case_section(view: &StudyView, governing: &[Governing]) -> Section {
     heads.push("Status".into());
     heads.extend(results.iter().map(|name| with_unit(*name)));
     heads.extend(["Least safety factor", "Of line", "Verdict", "Seconds"].map(str::to_owned));
-    let records = &view.study.records;
+    let records = &view.records;
     let governs: BTreeSet<&str> = governing.iter().map(|found| found.record.case.as_str()).collect();
     let is_cut = records.len() > MOST_ROWS;
     let shown =
@@ -409,8 +409,7 @@ pub fn case_section(view: &StudyView, governing: &[Governing]) -> Section {
 /// The failed cases, each with its reason.
 pub fn failed_section(view: &StudyView) -> Section {
     let mut section = Section::new("failed", "Failed and overloaded cases");
-    let wrong: Vec<&CaseRecord> =
-        view.study.records.iter().filter(|record| record.status != CaseStatus::Done).collect();
+    let wrong: Vec<&CaseRecord> = view.records.iter().filter(|record| record.status != CaseStatus::Done).collect();
     let mut table = ReportTable::new(&["Case", "Status", "Reason"]);
     for record in wrong.iter().take(MOST_ROWS) {
         let reason = match record.status {
@@ -432,7 +431,7 @@ pub fn failed_section(view: &StudyView) -> Section {
     if wrong.len() > MOST_ROWS {
         section.say(format!("{} more are in results.csv.", wrong.len() - MOST_ROWS));
     }
-    let missing = view.study.info.cases.len().saturating_sub(view.study.records.len());
+    let missing = view.study.info.cases.len().saturating_sub(view.records.len());
     if missing > 0 {
         section.say_in(
             Tone::Fail,
@@ -466,7 +465,7 @@ fn count_texts<'a>(records: impl Iterator<Item = (&'a str, &'a [String])>) -> Ve
 /// What is missing in the model and was accepted, shortcuts, and the messages of the cases.
 pub fn message_section(view: &StudyView) -> Section {
     let mut section = Section::new("messages", "Caveats and messages");
-    let records = &view.study.records;
+    let records = &view.records;
     let caveats = count_texts(records.iter().map(|record| (record.case.as_str(), record.caveats.as_slice())));
     let mut table = ReportTable::new(&["Caveat", "Cases", "First case"]);
     let mut accepted = false;
@@ -507,7 +506,7 @@ pub fn message_section(view: &StudyView) -> Section {
 /// Whether a case goes on without something by -ACCEPT_MISSING.
 pub fn accepts_missing(view: &StudyView) -> usize {
     let accepts = |record: &&CaseRecord| record.caveats.iter().any(|text| text.contains("-ACCEPT_MISSING"));
-    view.study.records.iter().filter(accepts).count()
+    view.records.iter().filter(accepts).count()
 }
 
 /// The files that the cases have read, with their hashes, and the versions of the program.
@@ -516,7 +515,7 @@ pub fn file_section(view: &StudyView) -> Section {
     let info = &view.study.info;
     let mut facts = ReportTable::new(&["What", "Value"]);
     let mut versions: BTreeMap<&str, usize> = BTreeMap::new();
-    for record in &view.study.records {
+    for record in view.records {
         *versions.entry(&record.version).or_default() += 1;
     }
     let versions: Vec<String> =
@@ -532,7 +531,7 @@ pub fn file_section(view: &StudyView) -> Section {
     }
     section.show(facts);
     let mut files: BTreeMap<(&str, &str, u64), usize> = BTreeMap::new();
-    for read in view.study.records.iter().flat_map(|record| &record.read) {
+    for read in view.records.iter().flat_map(|record| &record.read) {
         *files.entry((&read.path, &read.hash, read.size)).or_default() += 1;
     }
     let mut table = ReportTable::new(&["File", "Bytes", "SHA-256", "Read by cases"]);

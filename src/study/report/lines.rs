@@ -79,11 +79,11 @@ impl StudyView<'_> {
         ReportCell::text(shown.map_or("not checked", LineVerdict::word)).toned(tone)
     }
 
-    fn force(&self, value: Option<f64>) -> ReportCell {
+    pub(super) fn force(&self, value: Option<f64>) -> ReportCell {
         ReportCell::quantity(value, Dim::Force, self.units)
     }
 
-    fn force_head(&self, name: &str) -> String {
+    pub(super) fn force_head(&self, name: &str) -> String {
         format!("{name} ({})", Dim::Force.label(self.units))
     }
 }

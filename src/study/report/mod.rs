@@ -5,6 +5,7 @@ mod fatigue;
 mod kept_run;
 mod lines;
 mod page;
+mod seeds;
 
 pub use kept_run::script_of_case;
 
@@ -60,6 +61,7 @@ pub struct ReportArgs {
 /// A study as a report sees it.
 pub struct StudyView<'a> {
     study: &'a Study,
+    records: &'a [CaseRecord],
     units: UnitSystem,
     /// Whether a factor of the study is not confirmed: then nothing is a pass.
     is_unconfirmed: bool,
@@ -74,7 +76,7 @@ impl<'a> StudyView<'a> {
 
     /// The cases that have not failed.
     fn ended(&self) -> impl Iterator<Item = &'a CaseRecord> + Clone + use<'a> {
-        self.study.records.iter().filter(|record| record.status != CaseStatus::Failed)
+        self.records.iter().filter(|record| record.status != CaseStatus::Failed)
     }
 }
 
@@ -187,10 +189,12 @@ fn write_report(args: &ReportArgs) -> Result<String, ReportError> {
         return Err(ReportError::Usage(format!("{}: no case of the study is finished yet", args.study.display())));
     }
     let place = Place::new(args).map_err(ReportError::Usage)?;
+    let records: Vec<CaseRecord> = study.records.iter().map(|record| record.to_record()).collect();
     let mut view = StudyView {
         study: &study,
+        records: &records,
         units: units_of(&study),
-        is_unconfirmed: study.records.iter().flat_map(|record| &record.lines).any(|row| {
+        is_unconfirmed: records.iter().flat_map(|record| &record.lines).any(|row| {
             let is_unconfirmed = [row.verdict, row.anchor_verdict].contains(&Some(LineVerdict::Unconfirmed));
             is_unconfirmed || row.fatigue_confirmed == Some(false)
         }),
@@ -229,7 +233,7 @@ fn units_of(study: &Study) -> UnitSystem {
     let all = forces
         .into_iter()
         .flat_map(|force| [LengthUnit::Meters, LengthUnit::Feet].map(|length| UnitSystem { length, force }));
-    let said = study.records.iter().find_map(|record| record.units.as_ref());
+    let said = study.records.iter().find_map(|record| record.units());
     let is_said = |units: &UnitSystem| {
         said.is_some_and(|(length, force)| Dim::Length.label(*units) == *length && Dim::Force.label(*units) == *force)
     };
@@ -337,15 +341,17 @@ fn build(args: &ReportArgs, view: &mut StudyView, ensembles: Option<Result<Repor
     lines::summary(view, &rows, &mut summary);
     let folder =
         study.canonicalize().ok().and_then(|path| path.file_name().map(|name| name.to_string_lossy().into_owned()));
-    let of_job = view.study.records.iter().map(|record| record.title.trim()).find(|title| !title.is_empty());
+    let of_job = view.records.iter().map(|record| record.title.trim()).find(|title| !title.is_empty());
     report.title = args.title.clone().or_else(|| of_job.map(str::to_owned)).or(folder).unwrap_or_default();
-    report.banner = banner(view);
+    let seed_rows = seeds::seed_rows(view);
+    report.banner = banner(view, &seed_rows);
     report.sections = vec![
         summary,
         model,
         environment,
         lines::analysis_section(view, &replayed),
         governing,
+        seeds::seed_section(view, &seed_rows),
         cases::direction_section(view),
         cases::result_section(view),
         cases::ensemble_section(ensembles),
@@ -377,7 +383,7 @@ fn cases_to_replay<'a>(view: &StudyView<'a>, rows: &[Governing<'a>]) -> Vec<&'a 
 }
 
 /// What stands on top: the verdict of the whole, and what a reader must know before it.
-fn banner(view: &StudyView) -> Vec<Block> {
+fn banner(view: &StudyView, seed_rows: &[seeds::SeedRow]) -> Vec<Block> {
     let mut section = Section::default();
     let study = view.study;
     if view.is_unconfirmed {
@@ -409,6 +415,7 @@ fn banner(view: &StudyView) -> Vec<Block> {
             format!("{short} {} too short a fatigue life.", if short == 1 { "segment has" } else { "segments have" }),
         );
     }
+    seeds::say_verdict(view, seed_rows, &mut section);
     if failed > 0 {
         section.say_in(
             Tone::Fail,

@@ -94,6 +94,9 @@ fn line_is_lost_at_its_own_peak_and_at_the_largest_offset() {
     // API RP 2SK 3rd edition: 1.18 for a transient of quasi-static lines, 2.00 intact
     near(lines.number(0, "required_safety_factor"), 1.18, 1e-9);
     near(lines.number(1, "required_safety_factor"), 2.0, 1e-9);
+    // from where the cart was let go: to the other side of its swing
+    near(lines.number(0, "offset (m)"), 2.0 * xd, 3e-4);
+    near(lines.number(1, "offset (m)"), 2.0 * X0, 1e-4);
     // the cart is farthest from where it was let go half a period after a whole number of them
     let at = lines.number(0, "loss_time (s)");
     near((at / intact).fract(), 0.5, 0.01);
@@ -229,6 +232,114 @@ fn every_line_and_every_pair_of_a_grid_is_lost_once() {
         assert!((lines.number(row, "required_safety_factor") - required).abs() < 1e-12);
         assert!((lines.number(row, "safety_factor") - 1200.0 / 700.0).abs() < 1e-3, "{case}");
     }
+}
+
+/// The stored rows of the file of a run, as its bytes: blocks of a letter, a length, bytes and their sum behind 24 bytes.
+fn stored_rows(path: &Path) -> Vec<u8> {
+    let bytes = fs::read(path).unwrap();
+    let (mut rows, mut at) = (Vec::new(), 24);
+    while at < bytes.len() {
+        let length = u64::from_le_bytes(bytes[at + 1..at + 9].try_into().unwrap()) as usize;
+        if bytes[at] == b'R' {
+            rows.extend_from_slice(&bytes[at + 9..at + 9 + length]);
+        }
+        at += 9 + length + 8;
+    }
+    rows
+}
+
+#[test]
+fn instants_share_the_run_before_the_loss_to_the_last_bit() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let longer = LOSSES.replace("-TIME 60", "-TIME 120").replace("-INSTANTS 1", "-INSTANTS 3");
+    fs::write(here.join("cart.cif"), cart(&longer)).unwrap();
+    let table = "case,BEGIN,LOST,CONDITION,seed_of\ncut,ASIS,L1,transient,sea\nintact,ASIS,NONE,intact,sea\n";
+    fs::write(here.join("cases.csv"), table).unwrap();
+    let (code, out, err) = windlass(here, &["study", "cases.csv", "cart.cif", "--out", "S", "--keep", "all"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""), "{out}");
+    let mut shared = 0;
+    for instant in ["instant-1", "instant-2", "instant-3", "instant-4", "instant-5"] {
+        let kept = here.join("S/cases/cut").join(instant);
+        // that of the governing one is on top
+        let kept = if kept.is_dir() { kept } else { here.join("S/cases/cut") };
+        let log = fs::read_to_string(kept.join("LOG00001.TXT")).unwrap();
+        shared += usize::from(log.contains("of the run of another instant"));
+        // its own record alone makes all of it from the start
+        let records = kept.join("TDOM.run.cif");
+        let (code, out, err) = windlass(here, &["run", records.to_str().unwrap(), "--out", "F"]);
+        assert_eq!(code, Some(0), "{out}{err}");
+        let (whole, rows) = (stored_rows(&here.join("F/TDOM.run")), stored_rows(&kept.join("TDOM.run")));
+        assert!(whole.len() > 100_000 && whole == rows, "{instant}");
+        fs::remove_dir_all(here.join("F")).unwrap();
+    }
+    assert_eq!(shared, 4);
+}
+
+#[test]
+fn code_judges_the_statistic_of_the_seeds_that_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    // the cart swings from another place in each member: the largest tension is T0 + K_LINE X
+    let check = "CODE_CHECK -CODE API_RP_2SK_3 -CHARACTERISTIC LARGEST\nCODE_CHECK -FILE own.toml -CODE OURS -CHARACTERISTIC LARGEST\n";
+    let run = format!(
+        "&SET X = &TOKEN(%MEMBER% 0.02 0.018 0.022 0.021 0.019 0.026 0.0185 0.0215)\n&INSTATE -LOCATE CART %X%\n&ENV E -TIME 60 0.05 5\n\
+         TDOM -RHO 1 -SCREEN NO\nPRCPOST\n{check}END\n"
+    );
+    fs::write(here.join("cart.cif"), cart(&run)).unwrap();
+    let own = "[[code]]\nname = \"OURS\"\ntitle = \"ours\"\nedition = \"1\"\n[[code.tension]]\nform = \"safety-factor\"\n\
+               analysis = \"quasi-static\"\ncondition = \"intact\"\nfactor = 21\n[[code.mean_plus]]\nanalysis = \"quasi-static\"\n\
+               seeds = 5\ndeviations = 0.3\n";
+    fs::write(here.join("own.toml"), own).unwrap();
+    let members: String = (1..=8).map(|member| format!("m{member},{member}\n")).collect();
+    fs::write(here.join("cases.csv"), format!("case,member\n{members}")).unwrap();
+    let (code, out, err) = windlass(here, &["study", "cases.csv", "cart.cif", "--out", "S", "--scatter", "2.5"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""), "{out}");
+    let table = Cells::read(&here.join("S/seed_checks.csv"));
+    assert_eq!(table.column("line"), ["L1", "L2", "L1", "L2"]);
+    assert_eq!(table.column("code"), ["API_RP_2SK_3", "API_RP_2SK_3", "OURS", "OURS"]);
+    assert_eq!(table.column("statistic"), ["MPM", "MPM", "mean of maxima + 0.3 s", "mean of maxima + 0.3 s"]);
+    // scipy, of T0 + K_LINE X: gumbel_r by moments; intervals as in the tests of seed_checks.rs. 21 times 23.943 kN are more than 500 kN
+    for (row, value, low, high, factor, verdict) in
+        [(0, 23.943_203, 23.581_690, 24.304_716, 2.0, "pass"), (2, 24.328_137, 23.813_118, 24.843_156, 21.0, "FAIL")]
+    {
+        for (head, wanted) in [("tension (N)", value), ("tension_low (N)", low), ("tension_high (N)", high)] {
+            let found = table.number(row, head) / 1e3;
+            // a step of 0.05 s is 1.8 % of a swing: the last peak is seen to 2e-4 of it
+            assert!((found - wanted).abs() < 0.01, "{head} of row {row}: {found} is not {wanted}");
+        }
+        let used = table.number(row, "utilisation");
+        assert!((used - factor * value / 500.0).abs() < 1e-3 * factor, "{used}");
+        assert_eq!(table.column("verdict")[row], verdict);
+        assert!((table.number(row, "seeds") - 8.0).abs() < 1e-9);
+    }
+    // t sd sqrt(0.70994 / n) of the mode: 0.0250 asks for fewer seeds than there are, whose interval is 0.3615 of 23.943
+    let ensembles = Cells::read(&here.join("S/ensembles.csv"));
+    assert!(ensembles.number(0, "seeds_for_2.5_percent") <= 8.0);
+    let (code, _, err) = windlass(here, &["report", "S"]);
+    assert_eq!((code, err.as_str()), (Some(0), ""));
+    let text = fs::read_to_string(here.join("S/report.md")).unwrap();
+    assert!(text.contains("2 of 4 checks over seeds are NOT met") && text.contains("mean of maxima + 0.3 s"), "{text}");
+}
+
+#[test]
+fn fatigue_leaves_out_the_line_that_is_lost_and_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    let run = "&INSTATE -LOCATE CART 0.02\n&ENV E -TIME 60 0.05 5\nTDOM -RHO 1 -SCREEN NO -LOSE L1 -LOSE_AT 20 -FOLLOW 40\nPRCPOST\n";
+    let fatigue = |words: &str| format!("{}FATIGUE {words} -DURATION 1\nVLIST\nREPORT\nEND\nEND\n", cart(run));
+    fs::write(here.join("all.cif"), fatigue("")).unwrap();
+    let (code, out, err) = windlass(here, &["run", "all.cif"]);
+    assert_eq!(code, Some(0), "{out}{err}");
+    assert!(out.contains("L1: lost, and left out") && out.contains("L2"), "{out}");
+    // named, its record ends
+    fs::write(here.join("own.cif"), fatigue("L1")).unwrap();
+    let (code, _, err) = windlass(here, &["run", "own.cif"]);
+    assert!(code == Some(1) && err.contains("it does not act at every event"), "{err}");
+    // in the part of the run in which it acts it is one of the lines
+    fs::write(here.join("part.cif"), fatigue("-EVENTS 0 19")).unwrap();
+    let (code, out, err) = windlass(here, &["run", "part.cif"]);
+    assert!(code == Some(0) && !out.contains("left out") && out.contains("L1"), "{out}{err}");
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod waves;
+
 use windlass_capi::{CColumn, CSession};
 
 const MODEL: &str = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BUOY -IGNORE Z RX RY RZ\n*CG 0 0 0\n*F 0 0 0\n\

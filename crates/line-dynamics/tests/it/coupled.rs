@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use windlass_line_dynamics::{CoupledLine, CoupledLines, Rod, RodSegment, Surroundings, UniformFluid};
 
 fn vacuum() -> Surroundings {
-    Surroundings { water: UniformFluid::vacuum(), bottom: None, gravity: 9.81 }
+    Surroundings { water: UniformFluid::vacuum(), ambient: None, bottom: None, gravity: 9.81 }
 }
 
 /// A line of 100 m and 1000 kN of stiffness, stretched by 1 m along x, so light that its weight does not show.
@@ -17,7 +17,12 @@ fn taut() -> CoupledLines {
 
 #[test]
 fn driven_chain_follows_moordyn_by_positions_and_velocities_alone() {
-    let around = Surroundings { water: moordyn::water(), bottom: Some(moordyn::bottom()), gravity: moordyn::GRAVITY };
+    let around = Surroundings {
+        water: moordyn::water(),
+        ambient: None,
+        bottom: Some(moordyn::bottom()),
+        gravity: moordyn::GRAVITY,
+    };
     let [anchor, fairlead] = moordyn::ENDS;
     let rod = moordyn::rod(100);
     let mut lines = CoupledLines::new(vec![CoupledLine { rod, anchor, fairlead }], around, 0.1).unwrap();

@@ -97,6 +97,13 @@ pub fn lost_lines(run: &Run) -> LostLines {
     lost
 }
 
+/// Whether a connector of a run, by its number, acts at every one of some events.
+pub fn acts_throughout(run: &Run, link: usize, events: &[RunEvent]) -> bool {
+    let Some(columns) = run.history.layout.links.get(link) else { return false };
+    let mut rows = events.iter().map(|event| run.history.rows().nth(event.row));
+    rows.all(|row| row.and_then(|row| row.get(columns.active)).is_some_and(|active| *active > 0.0))
+}
+
 /// Whether a connector is a line of segments: one that a check of tension is for.
 pub fn is_mooring_line(model: &Model, connector: &Connector) -> bool {
     model

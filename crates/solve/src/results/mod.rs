@@ -28,7 +28,7 @@ pub use fenders::{FenderPeak, fender_peaks, fender_table};
 pub use forces::body_forces;
 pub use groups::{GroupName, group_forces, load_groups};
 pub use line_loads::{
-    AnchorRecord, LineRecord, LostLines, is_mooring_line, line_records, lost_lines, segment_tensions,
+    AnchorRecord, LineRecord, LostLines, acts_throughout, is_mooring_line, line_records, lost_lines, segment_tensions,
 };
 pub use line_paths::{PathPoint, body_panels, body_panels_at, path_at, place_at, static_path};
 pub use motions::{MotionOptions, trajectory};

@@ -33,6 +33,15 @@ impl Run {
 
     /// The same with or without the energy balance of its lines.
     pub fn fingerprint_with(&self, balance: bool) -> u64 {
+        self.fingerprint_of(balance, &self.actions)
+    }
+
+    /// That of the same run with other actions.
+    pub fn fingerprint_with_actions(&self, actions: &[Action]) -> u64 {
+        self.fingerprint_of(self.settings.balance, actions)
+    }
+
+    fn fingerprint_of(&self, balance: bool, actions: &[Action]) -> u64 {
         let mut made = Fingerprint(0xcbf2_9ce4_8422_2325);
         for (name, _) in &self.history.layout.bodies {
             made.bytes(name.to_ascii_uppercase().as_bytes());
@@ -53,7 +62,7 @@ impl Run {
         }
         let RunSettings { dt, method, convergence, adaptive, .. } = &self.settings;
         made.numbers(&[self.start(), *dt, convergence.tolerance, adaptive.unwrap_or(0.0)]);
-        made.bytes(format!("{method:?} {:?}", self.actions).as_bytes());
+        made.bytes(format!("{method:?} {actions:?}").as_bytes());
         made.numbers(self.model.parameters.dividing.as_slice());
         // they stand in what lines remember
         if balance && self.system.links.iter().any(|l| l.is_dynamic()) {

@@ -6,11 +6,13 @@ use std::fs;
 use std::io;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Condvar, Mutex};
+use std::time::Duration;
 use windlass_study::kept::KeptResult;
 use windlass_study::parts::{Part, collect, divide};
 use windlass_study::record::{CaseRecord, CaseStatus, FileRead, LinePeaks, Peak, decode};
 use windlass_study::runner::{Keep, RunCase, StudyPlan, begin_study, run_study};
-use windlass_study::store::{Files, Study, SystemFiles};
+use windlass_study::store::{Files, Fill, SCATTER_PERCENT, Study, SystemFiles};
 use windlass_study::table::{Case, CaseTable, MOST_CASES};
 
 /// Files that fail for good from an operation on; the one it falls in writes half of what it was given.
@@ -49,9 +51,9 @@ impl Files for Stopping {
         SystemFiles.truncate(path, length)
     }
 
-    fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    fn write_by(&self, path: &Path, fill: &mut Fill) -> io::Result<()> {
         self.ask()?;
-        SystemFiles.write(path, bytes)
+        SystemFiles.write_by(path, fill)
     }
 
     fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -110,12 +112,14 @@ fn plan(folder: &Path) -> StudyPlan {
         jobs: 1,
         keep: Keep::Governing,
         retry_failed: false,
+        scatter_percent: SCATTER_PERCENT,
     }
 }
 
 /// Case, status and square of each record, in the order of the table.
 fn rows(study: &Study) -> Vec<(String, CaseStatus, Option<f64>)> {
-    study.records.iter().map(|r| (r.case.clone(), r.status, r.results.first().map(|s| s.value))).collect()
+    let row = |r: CaseRecord| (r.case, r.status, r.results.first().map(|s| s.value));
+    study.records.iter().map(|view| row(view.to_record())).collect()
 }
 
 fn kept(folder: &Path) -> BTreeSet<String> {
@@ -210,8 +214,8 @@ fn losses(folder: &Path, text: &str, jobs: usize) -> StudyPlan {
 fn transient_cases_follow_intact_ones_wherever_a_study_is_stopped() {
     let end = |plan: &StudyPlan| {
         let study = Study::open(&plan.folder).unwrap();
-        let row = |r: &CaseRecord| (r.case.clone(), r.status, r.results.first().map(|s| s.value), r.reason.clone());
-        study.records.iter().map(row).collect::<Vec<_>>()
+        let row = |r: CaseRecord| (r.case, r.status, r.results.first().map(|s| s.value), r.reason);
+        study.records.iter().map(|view| row(view.to_record())).collect::<Vec<_>>()
     };
     let row = |case: &str, status, value, reason: &str| (case.to_owned(), status, value, reason.to_owned());
     let by_hand = [
@@ -263,14 +267,14 @@ fn parts_keep_transient_cases_with_their_intact_ones_wherever_they_are_stopped()
         let stop = AtomicBool::new(false);
         let study = collect(&plan.folder, Keep::Governing, place, &SystemFiles, &Losses, &stop).unwrap();
         let without_start =
-            |study: &Study| study.records.iter().map(|r| CaseRecord { start: 0, ..r.clone() }).collect::<Vec<_>>();
+            |study: &Study| study.records.iter().map(|r| CaseRecord { start: 0, ..r.to_record() }).collect::<Vec<_>>();
         assert_eq!(without_start(&study), without_start(&Study::open(&one.folder).unwrap()), "{stop_after}");
         assert_eq!(kept(folder.path()), kept(&whole), "{stop_after}");
         // a transient case more: the part has the record of the intact one that it follows
         let more = losses(folder.path(), &format!("{LOSSES}V,7,L1,transient,a\n"), 1);
         run_in_parts(&more, 2, stop_after, &scratch);
         let study = Study::open(&more.folder).unwrap();
-        let last = study.records.last().unwrap();
+        let last = study.records.iter().last().unwrap().to_record();
         assert_eq!((last.case.as_str(), last.results[0].value.to_bits()), ("V", f64::to_bits(14.0)));
     }
 }
@@ -296,7 +300,7 @@ fn transient_case_is_run_again_with_the_intact_one() {
     let mended = more.replace("J,4", "J,5").replace("U,4", "U,5");
     assert_eq!(go(&mended, false), ["J: its row has changed", "U: its row has changed"]);
     let study = Study::open(&folder.path().join("S")).unwrap();
-    assert!(study.records.iter().all(|record| record.status == CaseStatus::Done));
+    assert!(study.records.iter().all(|record| record.status() == CaseStatus::Done));
 }
 
 #[test]
@@ -329,4 +333,76 @@ fn folder_of_something_else_is_refused() {
     fs::write(plan.folder.join("letter"), "mine").unwrap();
     let error = run_study(&plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ()).unwrap_err();
     assert!(error.to_string().contains("it holds files and is of no study"), "{error}");
+}
+
+/// Files that say how many records have been added, and how many of these have been seen through to the disk.
+struct Watched {
+    records: Mutex<(usize, usize)>,
+    news: Condvar,
+}
+
+impl Files for Watched {
+    fn make_folder(&self, path: &Path) -> io::Result<()> {
+        SystemFiles.make_folder(path)
+    }
+
+    fn append(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
+        self.records.lock().unwrap().0 += 1;
+        SystemFiles.append(path, bytes)
+    }
+
+    fn sync(&self, path: &Path) -> io::Result<()> {
+        let mut records = self.records.lock().unwrap();
+        records.1 = records.0;
+        self.news.notify_all();
+        SystemFiles.sync(path)
+    }
+
+    fn truncate(&self, path: &Path, length: u64) -> io::Result<()> {
+        SystemFiles.truncate(path, length)
+    }
+
+    fn write_by(&self, path: &Path, fill: &mut Fill) -> io::Result<()> {
+        SystemFiles.write_by(path, fill)
+    }
+
+    fn move_folder(&self, from: &Path, to: &Path) -> io::Result<()> {
+        SystemFiles.move_folder(from, to)
+    }
+
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        SystemFiles.remove(path)
+    }
+
+    fn remove_folder(&self, path: &Path) -> io::Result<()> {
+        SystemFiles.remove_folder(path)
+    }
+}
+
+/// Five short cases, and a sixth that ends only when the records of the others are on the disk.
+struct LongLast<'a>(&'a Watched);
+
+impl RunCase for LongLast<'_> {
+    fn run(&self, case: &Case, columns: &[String], folder: &Path, _: Option<&CaseRecord>) -> Option<CaseRecord> {
+        if case.name == "F" {
+            let records = self.0.records.lock().unwrap();
+            // the limit ends a test that would hang
+            let limit = Duration::from_secs(60);
+            let waited = self.0.news.wait_timeout_while(records, limit, |(_, synced)| *synced < 5).unwrap();
+            assert!(!waited.1.timed_out(), "the records before a long case are never seen through to the disk");
+        }
+        Squares.run(case, columns, folder, None)
+    }
+
+    fn is_unchanged(&self, read: &FileRead) -> bool {
+        Squares.is_unchanged(read)
+    }
+}
+
+#[test]
+fn records_before_a_long_case_are_on_the_disk_while_it_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = Watched { records: Mutex::new((0, 0)), news: Condvar::new() };
+    let end = run_study(&plan(folder.path()), &files, &LongLast(&files), &AtomicBool::new(false), &|_| ()).unwrap();
+    assert_eq!((end.progress.finished, end.progress.failed), (6, 1));
 }

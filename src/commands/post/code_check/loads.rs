@@ -20,6 +20,7 @@ use windlass_solve::results::{
     self, AnchorRecord, PathPoint, RunEvent, body_panels, body_panels_at, is_mooring_line, line_records, lost_lines,
     path_at, place_at, segment_tensions, static_path,
 };
+use windlass_solve::time::Run;
 
 choices! {
     /// What of the tension over a run is checked.
@@ -55,6 +56,8 @@ pub(super) struct CheckedLine {
     pub segments: Vec<(FatigueSegment, SegmentLoad)>,
     pub anchor: Option<AnchorRecord>,
     pub grounded: Option<f64>,
+    /// Largest horizontal distance (m) of the body at its first end from where the model has it; none of a line at rest, or without a body.
+    pub offset: Option<f64>,
 }
 
 /// The lines of a mooring with what decides on their factors.
@@ -73,6 +76,8 @@ pub(super) struct CheckedMooring {
     pub events: Vec<RunEvent>,
     /// Time that maxima are sought in (s).
     pub duration: f64,
+    /// The storm whose maximum is sought over the record of the run; 1 where the largest of the record is. None of lines at rest.
+    pub storm_ratio: Option<f64>,
 }
 
 /// The analysis of lines by their idealisations.
@@ -159,8 +164,16 @@ pub(super) fn of_run(job: &Job, call: &Call, query: &CheckQuery) -> Checked {
             }
             segments.push((segment, load));
         }
-        lines.push(CheckedLine { name: record.name, segments, anchor: record.anchor, grounded: record.grounded });
+        let offset = largest_offset_of_line(job, run, &record.name, &instants);
+        let (anchor, grounded) = (record.anchor, record.grounded);
+        lines.push(CheckedLine { name: record.name, segments, anchor, grounded, offset });
     }
+    let time = |event: Option<&RunEvent>| event.and_then(|event| event.time(&run.history));
+    let record = time(instants.last()).zip(time(instants.first())).map(|(last, first)| last - first);
+    let storm_ratio = match wanted.unwrap_or(usual) {
+        Characteristic::Mpm => record.filter(|record| *record > 0.0).map(|record| duration / record),
+        Characteristic::Largest => Some(1.0),
+    };
     Ok(CheckedMooring {
         analysis,
         condition,
@@ -171,6 +184,7 @@ pub(super) fn of_run(job: &Job, call: &Call, query: &CheckQuery) -> Checked {
         unbalanced: None,
         events: instants,
         duration,
+        storm_ratio,
     })
 }
 
@@ -266,6 +280,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
             segments: segments.into_iter().zip(tensions.into_iter().map(load)).collect(),
             anchor: connector.anchor.is_some().then_some(anchor),
             grounded: Some(state.on_bottom),
+            offset: None,
         });
     }
     if lines.is_empty() {
@@ -284,6 +299,7 @@ pub(super) fn of_state(job: &Job, _: &Call, query: &CheckQuery) -> Checked {
         unbalanced,
         events: Vec::new(),
         duration: 0.0,
+        storm_ratio: None,
     })
 }
 
@@ -302,6 +318,20 @@ fn places(job: &Job, mooring: &CheckedMooring, name: &str, span: Span) -> Outcom
         list.push([place.shift[0], place.shift[1]]);
     }
     Ok(list)
+}
+
+/// The largest horizontal distance (m), over instants of a run, of the body at the first end of a line from where the model has it.
+fn largest_offset_of_line(job: &Job, run: &Run, line: &str, instants: &[RunEvent]) -> Option<f64> {
+    let layout = &run.history.layout;
+    let link = layout.links.iter().find(|link| link.name == line)?;
+    let body = link.ends.iter().flatten().next()?;
+    let body = job.model.bodies.get(&layout.bodies.get(*body)?.1)?;
+    let [x, y, _] = body.position.shift;
+    let away = |event: &RunEvent| {
+        let [now_x, now_y, _] = place_at(run, &body.name, event)?.shift;
+        Some((now_x - x).hypot(now_y - y))
+    };
+    instants.iter().filter_map(away).reduce(f64::max)
 }
 
 /// The largest horizontal distance (m) of the origin of a body from a place, and that place (m): of a run where it began unless given.

@@ -10,14 +10,16 @@ use windlass_base::span::Span;
 use windlass_base::table::{Cell, Digits, Table};
 use windlass_base::units::Dim;
 use windlass_design_checks::anchor::{AnchorCheck, AnchorLoad, check_anchor};
-use windlass_design_checks::codes::{Analysis, AnchorKind, Code, Condition, FatigueRule, Provenance, PullDirection};
+use windlass_design_checks::codes::{
+    Analysis, AnchorKind, Code, Condition, FatigueRule, Provenance, PullDirection, SeedsStatistic, TensionRule,
+};
 use windlass_design_checks::fatigue::{WeightedDamage, annual_damage, check_fatigue};
 use windlass_design_checks::limits::{Side, check_limit};
 use windlass_design_checks::strength::corroded;
-use windlass_design_checks::tension::{LineTension, TensionCheck, check_tension};
+use windlass_design_checks::tension::{LineTension, LoadFactors, TensionCheck, check_tension};
 use windlass_design_checks::{CheckError, Verdict};
 use windlass_solve::results::{AnchorRecord, ScatterExposure};
-use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, LossTime, MooringCondition};
+use windlass_study::kept::{LineAnalysis, LineRow, LineVerdict, LossTime, MooringCondition, SeedCheck, SeedStatistic};
 
 /// What stands before the title of a table whose factors are not confirmed.
 const UNCONFIRMED_TITLE: &str = "UNCONFIRMED: ";
@@ -47,6 +49,7 @@ struct SegmentRow<'m> {
     line: &'m CheckedLine,
     segment: usize,
     load: &'m SegmentLoad,
+    pretension: Option<f64>,
     strength: f64,
     checked: TensionCheck,
 }
@@ -92,13 +95,10 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
                 if own > 0.0 { corroded(segment.breaking, segment.od, own, law) } else { Ok(segment.breaking) };
             let breaking = breaking.map_err(|error| wrong(query, &who, &error))?;
             let strength = characteristic.as_ref().map_or(breaking, |rule| rule.share * breaking);
-            let tension = LineTension {
-                mean: load.mean,
-                characteristic: load.characteristic,
-                pretension: pretension(job, query, &line.name),
-            };
+            let pretension = pretension(job, query, &line.name);
+            let tension = LineTension { mean: load.mean, characteristic: load.characteristic, pretension };
             let checked = check_tension(&tension, strength, &rule).map_err(|error| wrong(query, &who, &error))?;
-            rows.push(SegmentRow { line, segment: index + 1, load, strength, checked });
+            rows.push(SegmentRow { line, segment: index + 1, load, pretension, strength, checked });
         }
     }
     let mut provenances = vec![rule.provenance.clone()];
@@ -159,8 +159,18 @@ pub(super) fn check(job: &Job, query: &CheckQuery, mooring: &CheckedMooring) -> 
         }
     }
     let anchors: Vec<AnchorRow> = anchors.map(|(rows, _)| rows).unwrap_or_default();
-    let source = format!("{}; {}", query.code.edition, provenance_notes(&[rule.provenance]).join("; "));
-    let kept = KeptRows { job, query, mooring, anchors: &anchors, life: life.as_ref(), confirmed, source: &source };
+    let source =
+        format!("{}; {}", query.code.edition, provenance_notes(std::slice::from_ref(&rule.provenance)).join("; "));
+    let kept = KeptRows {
+        job,
+        query,
+        mooring,
+        anchors: &anchors,
+        life: life.as_ref(),
+        confirmed,
+        rule: &rule,
+        source: &source,
+    };
     let kept = rows.iter().map(|row| kept.row(row)).collect();
     Ok((tables, kept))
 }
@@ -455,6 +465,8 @@ struct KeptRows<'a> {
     life: Option<&'a LifeRule>,
     /// Whether all factors of the check are.
     confirmed: bool,
+    /// The rule of the tension.
+    rule: &'a TensionRule,
     /// Edition, clause and source of the factor of tension.
     source: &'a str,
 }
@@ -485,6 +497,32 @@ impl KeptRows<'_> {
     fn curve_is_confirmed(&self, row: &SegmentRow) -> bool {
         let lines = self.job.scatter.iter().flat_map(|run| &run.lines).filter(|(name, _)| *name == row.line.name);
         !lines.flat_map(|(_, line)| &line.segments).any(|s| s.segment == row.segment && s.unconfirmed)
+    }
+
+    /// How a segment of a run is judged over seeds.
+    fn seeds(&self, row: &SegmentRow) -> Option<Box<SeedCheck>> {
+        let mooring = self.mooring;
+        let storm_ratio = mooring.storm_ratio?;
+        let factors = LoadFactors::new(&self.rule.form, row.pretension).ok()?;
+        let (statistic, from) = match self.query.code.seeds_rule(mooring.analysis, &self.query.options) {
+            Ok(rule) => {
+                let statistic = match rule.statistic {
+                    SeedsStatistic::MostProbable => SeedStatistic::MostProbable,
+                    SeedsStatistic::Mean => SeedStatistic::Mean,
+                    SeedsStatistic::MeanPlus(steps) => SeedStatistic::MeanPlus(steps),
+                };
+                (statistic, rule.provenance)
+            }
+            Err(error) => (SeedStatistic::Refused(error.to_string()), Vec::new()),
+        };
+        Some(Box::new(SeedCheck {
+            mean: factors.mean,
+            characteristic: factors.characteristic,
+            added: factors.added,
+            storm_ratio,
+            statistic,
+            is_confirmed: self.confirmed && from.iter().all(Provenance::is_confirmed),
+        }))
     }
 
     /// What a study keeps of a segment.
@@ -552,7 +590,8 @@ impl KeptRows<'_> {
             fatigue_factor: life.and_then(|life| life.rule.factor_at(life.ratio).ok()),
             fatigue_confirmed: life.map(|life| life.rule.is_confirmed() && self.curve_is_confirmed(row)),
             grounded_length: row.line.grounded,
-            offset: None,
+            offset: row.line.offset,
+            seeds: self.seeds(row),
         }
     }
 }
