@@ -28,6 +28,7 @@ static RUN: &[&Command] = &[
     &loads::FORCE,
     &loads::LUMP,
     &loads::TANAKA,
+    &loads::ROLL_DAMPING,
     &loads::TANKER,
     &apply::APPLY,
     &weight::ITEM,

@@ -188,6 +188,7 @@ static LISTED: &[&Command] = &[
     &loads::FORCE,
     &loads::LUMP,
     &loads::TANAKA,
+    &loads::ROLL_DAMPING,
     &loads::TANKER,
     &apply::APPLY,
     &weight::ITEM,

@@ -9,6 +9,7 @@ use super::growth::Growth;
 use super::heading::ByHeading;
 use super::lump::{self, LumpSurroundings};
 use super::plate::PlateLoad;
+use super::roll_damping::RollDamping;
 use super::sea::Sea;
 use super::steady::{Medium, Steady};
 use super::stream::{Immersion, LoadPlace};
@@ -214,7 +215,7 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
         let frame = PartAxes { part, axes: *part.position.rotation().matrix(), level: model.surroundings().tide };
         for load in &mine {
             let (before, mass, damping) = (sum.loads.len(), sum.added_mass, sum.damping);
-            add_part_load(&mut sum, &steady, &frame, load, sea)?;
+            add_part_load(&mut sum, (model, body), &steady, (&frame, load), sea)?;
             let factor = |attribute| model.load_factor(&part.name, load.group.as_deref(), &load.category, attribute);
             sum.added_mass = mass + (sum.added_mass - mass) * factor(Attribute::AddedMass);
             sum.damping = damping + (sum.damping - damping) * factor(Attribute::Drag);
@@ -277,9 +278,9 @@ pub fn gather_loads(model: &Model, body: &Body, sea: Option<Option<&Arc<Sea>>>) 
 /// Adds one record but those of drift, of which several make one table.
 fn add_part_load(
     sum: &mut BodyLoads,
+    (model, body): (&Model, &Body),
     steady: &Arc<Steady>,
-    frame: &PartAxes,
-    load: &PartLoad,
+    (frame, load): (&PartAxes, &PartLoad),
     sea: Option<Option<&Arc<Sea>>>,
 ) -> Result<(), ClassError> {
     let under_way = sea.is_some();
@@ -293,6 +294,20 @@ fn add_part_load(
             }
         }
         LoadKind::Damping(matrix) => sum.damping += at_origin(matrix, &frame.axes, at),
+        LoadKind::RollDamping(given) => {
+            let axis = frame.axes.column(0).into_owned();
+            let critical = if given.critical > 0.0 && under_way {
+                given.critical
+                    * roll_damping::critical_damping(model, body, axis).map_err(|e| e.with_span(load.span))?
+            } else {
+                0.0
+            };
+            let mut block = sum.damping.fixed_view_mut::<3, 3>(3, 3);
+            block += axis * axis.transpose() * (given.linear + critical);
+            if given.quadratic > 0.0 && under_way {
+                sum.loads.push(Box::new(RollDamping { axis, coefficient: given.quadratic }));
+            }
+        }
         LoadKind::AddedMass(matrix) => sum.added_mass += at_origin(matrix, &frame.axes, at),
         LoadKind::Drift { .. } | LoadKind::EddyDamping(_) => {}
         LoadKind::Buoyancy { force, size } => {

@@ -1,4 +1,4 @@
-//! Eddy damping of roll, `#TANAKA` and `-TANAKA` of pieces.
+//! Damping of roll: `#ROLL_DAMPING`, and that by eddies, `#TANAKA` and `-TANAKA` of pieces.
 //!
 //! Source: [IKEDA-1993], the eddy component of a sharp-cornered barge of length L, breadth B and draft d that rolls with the amplitude
 //! phi and the frequency w about an axis OG below the waterline:
@@ -6,10 +6,11 @@
 //! moment `-b |p| p` of a rate of roll p with `B_E = 8/(3 pi) b phi w`, so that `b = 3/4 rho L d^4 (..) (..)`; that moment acts here, times
 //! the factor of the record. MOSES names Tanaka's formula, whose coefficients stand in no source at hand; the choice is ours.
 
-use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load};
+use super::database::DatabaseLookup;
+use super::{BodyLoad, BodyStep, Category, DynamicLoad, Load, move_stiffness};
 use nalgebra::{RowVector3, Vector3};
 use windlass_base::pose::{Pose, Six};
-use windlass_model::{Body, ClassError, Mass, Model, Part, Piece};
+use windlass_model::{Body, ClassError, LoadKind, Mass, Model, Part, Piece};
 
 /// A quadratic moment against the roll of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,6 +74,92 @@ pub(super) fn build<'a>(
         axis: Vector3::x(),
         coefficient: factor * eddy_coefficient(&section, model.surroundings().water_density),
     }))
+}
+
+/// Times the frequency of roll is found with added mass at it.
+const MAX_ITERATIONS: usize = 100;
+/// Change of a frequency, as its share, that is none.
+const FREQUENCY_TOLERANCE: f64 = 1e-12;
+
+/// The critical damping of the roll of a body about an axis of it, `2 sqrt((I + A) C)` (N m s): inertia, added mass at the natural frequency and
+/// hydrostatic stiffness of the body where it stands, about its centre of gravity, without connectors and without other motions.
+///
+/// # Errors
+/// A roll that nothing rights; loads that make no sense.
+pub fn critical_damping(model: &Model, body: &Body, axis: Vector3<f64>) -> Result<f64, ClassError> {
+    let pose = Pose::from_place(&body.position);
+    let gravity = model.defaults.gravity;
+    let mass = super::tank::laden_mass(model, body)?;
+    let mut loads: Vec<Box<dyn BodyLoad>> = Vec::new();
+    loads.extend(super::weight::build_weight(&Mass::from_parts(model.parts_of(body), gravity), gravity));
+    loads.extend(super::tank::build_tank_loads(model, body)?);
+    loads.extend(super::Hull::new(model, body)?.map(|hull| Box::new(hull) as Box<dyn BodyLoad>));
+    loads.extend(super::linear::build_linear_buoyancy(body));
+    let gathered = super::body_loads::gather_loads(model, body, None)?;
+    loads.extend(gathered.loads.into_iter().filter(|load| load.category() == Category::Buoyancy));
+    if let Some(attached) = body.database.as_ref().filter(|attached| attached.hydrostatics) {
+        loads.push(super::database::attached::hydrostatics_load(model, body, attached)?);
+    }
+    let mut all = Load::none();
+    for load in &loads {
+        let made = load.mean_load(&pose)?;
+        all = Load { wrench: all.wrench + made.wrench, stiffness: all.stiffness + made.stiffness };
+    }
+    let about_centre = all.about_point(pose.axes * mass.centre).stiffness;
+    let turned = pose.axes * axis;
+    let stiffness = turned.dot(&(about_centre.fixed_view::<3, 3>(3, 3) * turned));
+    if stiffness <= 0.0 {
+        let text = format!("nothing rights the roll of {} where it stands: it has no critical damping", body.name);
+        return Err(ClassError::new(text).help("-LINEAR gives the damping itself"));
+    }
+    let inertia = axis.dot(&(mass.inertia * axis)) - mass.mass * axis.cross(&mass.centre).norm_squared();
+    let given = gathered.added_mass + super::growth_loads::build_growth_loads(model, body)?.mass;
+    let with_added = |frequency: f64| {
+        let of_database = body.database.as_ref().and_then(|attached| attached.data.added_mass_at(frequency));
+        let about_origin = given + of_database.unwrap_or_default();
+        let about_centre = move_stiffness(&about_origin, -mass.centre, -mass.centre);
+        inertia + axis.dot(&(about_centre.fixed_view::<3, 3>(3, 3) * axis))
+    };
+    let mut frequency = (stiffness / inertia).sqrt();
+    for _ in 0..MAX_ITERATIONS {
+        let next = (stiffness / with_added(frequency)).sqrt();
+        let is_same = (next - frequency).abs() <= FREQUENCY_TOLERANCE * next;
+        frequency = next;
+        if is_same {
+            break;
+        }
+    }
+    let critical = 2.0 * (with_added(frequency) * stiffness).sqrt();
+    if critical.is_finite() && critical > 0.0 {
+        return Ok(critical);
+    }
+    Err(ClassError::new(format!("the roll of {} has no inertia: it has no critical damping", body.name)))
+}
+
+/// Damping of roll that is given in per cent of the critical one, as the linear damping that it is now, for all bodies of a model.
+///
+/// # Errors
+/// As of [`critical_damping`].
+pub fn fix_critical_damping(model: &mut Model) -> Result<(), ClassError> {
+    let mut made = Vec::new();
+    for (index, load) in model.loads.iter().enumerate() {
+        let LoadKind::RollDamping(given) = load.kind else { continue };
+        let part = model.parts.get(&Model::key(&load.part));
+        let body = part.and_then(|part| Some((part, model.bodies.get(&Model::key(&part.body))?)));
+        if let Some((part, body)) = body.filter(|_| given.critical > 0.0) {
+            let axis = part.position.rotation().matrix().column(0).into_owned();
+            let whole = critical_damping(model, body, axis).map_err(|error| error.with_span(load.span))?;
+            made.push((index, given.linear + given.critical * whole));
+        }
+    }
+    for (index, linear) in made {
+        if let Some(load) = model.loads.get_mut(index)
+            && let LoadKind::RollDamping(given) = &mut load.kind
+        {
+            (given.linear, given.critical) = (linear, 0.0);
+        }
+    }
+    Ok(())
 }
 
 impl BodyLoad for RollDamping {

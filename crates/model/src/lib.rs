@@ -84,7 +84,7 @@ pub use line::{
     AbsentRow, Condition, FoundLength, LineChange, LineConfiguration, LineLoads, LineModel, LineSampling, Placement,
 };
 pub use line_properties::{AttachedMass, AxialLaw, LineProperties, LineSeabed, SegmentProperties};
-pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Lump, Multipliers, PartLoad};
+pub use load::{Attribute, AttributeMultiplier, Fluid, LoadGroup, LoadKind, Lump, Multipliers, PartLoad, RollDamping};
 pub use member_section::{MemberSection, SectionOutline};
 pub use names::EntityKind;
 pub use note::Note;

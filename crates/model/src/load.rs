@@ -60,6 +60,8 @@ pub enum LoadKind {
     Force([f64; 3]),
     /// Eddy damping of the roll of the hull of its part, times this factor.
     EddyDamping(f64),
+    /// Damping of the roll of its body about the x axis of the part.
+    RollDamping(RollDamping),
     /// Mean wave drift in waves from one direction.
     Drift {
         /// Direction in the part that the waves come from (rad).
@@ -69,6 +71,17 @@ pub enum LoadKind {
         /// Whether the other side mirrors this one.
         symmetric: bool,
     },
+}
+
+/// Damping of roll as it is given; all of it acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RollDamping {
+    /// Moment over the rate (N m s).
+    pub linear: f64,
+    /// Moment over the square of the rate (N m s2).
+    pub quadratic: f64,
+    /// Share of the critical damping of roll about the centre of gravity.
+    pub critical: f64,
 }
 
 /// A small body in the water.
@@ -152,6 +165,7 @@ impl LoadKind {
             LoadKind::Lump(_) => "#LUMP",
             LoadKind::Force(_) => "#FORCE",
             LoadKind::EddyDamping(_) => "#TANAKA",
+            LoadKind::RollDamping(_) => "#ROLL_DAMPING",
             LoadKind::Drift { .. } => "#DRIFT",
         }
     }

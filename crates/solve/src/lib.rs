@@ -47,6 +47,7 @@ pub mod run_tables;
 pub mod scene;
 pub mod screening;
 mod search;
+pub mod slow_checks;
 mod system;
 mod system_changes;
 pub mod tables;

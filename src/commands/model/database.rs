@@ -37,8 +37,6 @@ const MAX_MASS_DIFFERENCE: f64 = 0.2;
 const ADDED: RangeInclusive<f64> = 0.02..=50.0;
 /// Natural periods of heave that are let pass (s): from a small buoy to a slender spar.
 const HEAVE: RangeInclusive<f64> = 0.5..=200.0;
-/// The share of the mass of Ogilvie's relation by which frequencies may stray before it is said.
-const MAX_OGILVIE_ERROR: f64 = 0.05;
 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
@@ -236,13 +234,14 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
     for text in &data.remarks {
         job.warn(format!("{}: {text}", data.source), source);
     }
-    if let Some(stray) = radiation.and_then(|r| r.estimated) {
-        let text = format!(
-            "{}: added mass at infinite frequency is by Ogilvie's relation; single frequencies stray from it by {:.1} %",
-            data.source,
-            100.0 * stray
-        );
-        if stray > MAX_OGILVIE_ERROR { job.warn(text, source) } else { job.remark(text, source) }
+    if let Some(radiation) = radiation {
+        let (text, is_warning) = radiation.quality.sentence();
+        let text = format!("{}: {text}", data.source);
+        match (is_warning, data.infinite) {
+            (true, _) => job.warn(text, source),
+            (false, None) => job.remark(text, source),
+            (false, Some(_)) => {}
+        }
     }
     if let Some(other) = data.mass.filter(|m| mass > 0.0 && (m / mass - 1.0).abs() > MAX_MASS_DIFFERENCE) {
         let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);

@@ -1,4 +1,4 @@
-//! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices; `#LUMP`, `#FORCE`.
+//! `#AREA`, `#PLATE`, `#TABLE`, `#DRIFT`: loads of wind, current and waves on a part; `#DRAG`, `#DAMP`, `#AMASS`: its matrices; `#TANAKA`, `#ROLL_DAMPING`; `#LUMP`, `#FORCE`.
 //!
 //! Source: [MOSES-HELP lgroup]; `#AREA *PT AX AY AZ` as in [MOSES-RUNS sea_keep/cargo]. The
 //! order of the values of the others is ours: no source gives it.
@@ -20,7 +20,7 @@ use windlass_base::values::{Args, Given};
 use windlass_hydro::heading::ByHeading;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, MenuSpec, OptionEffect, OptionSpec, ValueSpec};
-use windlass_model::{Fluid, GROUND, LoadKind, Lump, Model, PartLoad, SolveKind, UnmodelledEffect, find};
+use windlass_model::{Fluid, GROUND, LoadKind, Lump, Model, PartLoad, RollDamping, SolveKind, UnmodelledEffect, find};
 
 /// #AREA.
 pub static AREA: Command = Command { spec: &AREA_SPEC, edits: false, run: area };
@@ -41,6 +41,8 @@ pub static AMASS: Command = Command { spec: &AMASS_SPEC, edits: false, run: adde
 
 /// #TANAKA.
 pub static TANAKA: Command = Command { spec: &TANAKA_SPEC, edits: false, run: tanaka };
+/// #ROLL_DAMPING.
+pub static ROLL_DAMPING: Command = Command { spec: &ROLL_DAMPING_SPEC, edits: false, run: roll_damping };
 /// #TANKER.
 pub static TANKER: Command = Command { spec: &TANKER_SPEC, edits: true, run: tanker };
 /// #LUMP.
@@ -298,6 +300,36 @@ static TANAKA_SPEC: CommandSpec = CommandSpec {
     ..CommandSpec::new("#TANAKA", "eddy damping of roll")
 };
 
+const LINEAR_ROLL: OptionSpec = OptionSpec::ours(
+    "-LINEAR",
+    &[number("B", derived_dimension(1, 1, 1), "moment over the rate of roll").not_negative()],
+    "linear damping",
+);
+const QUADRATIC_ROLL: OptionSpec = OptionSpec::ours(
+    "-QUADRATIC",
+    &[number("B", derived_dimension(1, 1, 2), "moment over the square of the rate of roll").not_negative()],
+    "quadratic damping",
+);
+const CRITICAL_ROLL: OptionSpec = OptionSpec::ours(
+    "-CRITICAL",
+    &[number("PERCENT", Dim::None, "per cent of the critical damping").in_range(0.0, 100.0)],
+    "linear damping as a share of the critical one",
+);
+
+static ROLL_DAMPING_SPEC: CommandSpec = CommandSpec {
+    owner: Owner::Ours,
+    menus: MENUS,
+    options: &[LINEAR_ROLL, QUADRATIC_ROLL, CRITICAL_ROLL, CATEGORY],
+    detail: "Damping of the roll of the body about the x axis of the part described last: a moment B p against the rate of roll p, B |p| p, or both. -CRITICAL p is \
+             linear with B = 2 p/100 sqrt((I + A) C): I the moment of inertia and A the added mass at the natural period of roll, of the database and of #AMASS, C the \
+             hydrostatic stiffness of the body alone, all about its center of gravity, where a run begins; moorings and the coupling to sway are left out. Drift by \
+             G_PRESSURE takes A of the database that the body had before. Linear damping acts in TDOM and the frequency domain; quadratic in TDOM and, linearised in \
+             the sea, in SRESPONSE, not in RAO.",
+    example: "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\nPGEN\nPLANE -20 20 -RECT -4 2 12\nEND\n\
+              #ROLL_DAMPING -CRITICAL 5 -QUADRATIC 1E5\nEND\n&STATUS LOADS",
+    ..CommandSpec::new("#ROLL_DAMPING", "damping of roll: linear, quadratic, per cent of critical")
+};
+
 const COEFFICIENT_FILE: OptionSpec = OptionSpec::ours(
     "-FILE",
     &[ValueSpec::new("FILE", Kind::File, "coefficients by heading; looked for where it says, then beside the script")],
@@ -542,6 +574,22 @@ fn tanaka(job: &mut Job, call: &Call) -> Outcome<Effect> {
     };
     let factor = args.number(const { TANAKA_SPEC.number("F") }).unwrap_or_default();
     keep(job, args, (part, [0.0; 3]), LoadKind::EddyDamping(factor))
+}
+
+fn roll_damping(job: &mut Job, call: &Call) -> Outcome<Effect> {
+    let args = &call.args;
+    let Some(part) = job.model.current_part.clone().filter(|p| Model::key(p) != GROUND) else {
+        return Err(Diagnostic::error("a load belongs to a part, and none is described yet", args.span)
+            .help("&DESCRIBE BODY describes one"));
+    };
+    let given = [LINEAR_ROLL, QUADRATIC_ROLL, CRITICAL_ROLL].map(|option| args.option_number(&option));
+    if given.iter().all(Option::is_none) {
+        return Err(Diagnostic::error("#ROLL_DAMPING without a value", args.span)
+            .help("-LINEAR B, -QUADRATIC B or -CRITICAL PERCENT, or several of them"));
+    }
+    let [linear, quadratic, percent] = given.map(Option::unwrap_or_default);
+    let kind = LoadKind::RollDamping(RollDamping { linear, quadratic, critical: percent / 100.0 });
+    keep(job, args, (part, [0.0; 3]), kind)
 }
 
 fn tanker(job: &mut Job, call: &Call) -> Outcome<Effect> {

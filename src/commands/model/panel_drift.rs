@@ -18,8 +18,9 @@ use windlass_diffraction::{
     WaveSolution,
 };
 use windlass_hydro::database::DriftTable;
+use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
-use windlass_model::{Database, Model};
+use windlass_model::{Database, LoadKind, Model};
 use windlass_solve::SolveError;
 use windlass_solve::frequency::{LinearSystem, Motions};
 
@@ -67,16 +68,23 @@ pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSour
     if meshed.bodies.iter().all(is_held) {
         return DriftSource::Fixed;
     }
+    match without_databases(model, meshed) {
+        Ok(linear) => DriftSource::Motions(Box::new(linear)),
+        Err(error) => DriftSource::None(said(error)),
+    }
+}
+
+/// The equations of motion without the databases of bodies that are meshed.
+fn without_databases(model: &Model, meshed: &MeshedBodies) -> Result<LinearSystem, SolveError> {
     let mut alone = model.clone();
+    // by the databases that there are
+    fix_critical_damping(&mut alone).map_err(SolveError::new)?;
     for meshed in &meshed.bodies {
         if let Some(body) = alone.bodies.get_mut(&meshed.key) {
             body.database = None;
         }
     }
-    match LinearSystem::new(&alone) {
-        Ok(linear) => DriftSource::Motions(Box::new(linear)),
-        Err(error) => DriftSource::None(said(error)),
-    }
+    LinearSystem::new(&alone)
 }
 
 /// What of a source the drift depends on: all of stiffness, mass, damping and other loads of waves at the frequencies.
@@ -258,18 +266,57 @@ fn motions(
 const NO_ROLL_DAMPING: f64 = 2e-3;
 const LIGHT_ROLL_DAMPING: f64 = 0.05;
 
-/// The warning of a body alone whose roll at its natural period has the damping of radiated waves alone; none where that period is not among the
-/// frequencies.
-pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, data: &Database) -> Option<String> {
+/// The warnings of bodies whose roll at its natural period has the damping of radiated waves alone; none where that period is not among the
+/// frequencies, or where damping is given that grows with the rate of roll.
+pub fn roll_warnings(
+    model: &Model,
+    source: &DriftSource,
+    meshed: &MeshedBodies,
+    databases: &[Database],
+) -> Vec<String> {
+    let made;
+    let linear = match source {
+        DriftSource::Motions(linear) => linear.as_ref(),
+        // what has no equations of motion is said where they are needed
+        _ => match without_databases(model, meshed) {
+            Ok(linear) => {
+                made = linear;
+                &made
+            }
+            Err(_) => return Vec::new(),
+        },
+    };
+    let bodies = meshed.bodies.iter().zip(databases).filter(|(body, _)| !has_quadratic_roll_damping(model, body));
+    bodies.filter_map(|(body, data)| roll_warning(linear, meshed, (body, data))).collect()
+}
+
+fn has_quadratic_roll_damping(model: &Model, body: &MeshedBody) -> bool {
+    let parts = || model.parts.values().filter(|part| Model::key(&part.body) == body.key);
+    let by_record = |kind: &LoadKind| match kind {
+        LoadKind::EddyDamping(factor) => *factor > 0.0,
+        LoadKind::RollDamping(given) => given.quadratic > 0.0,
+        _ => false,
+    };
+    parts().any(|part| part.pieces.iter().any(|piece| piece.eddy_damping > 0.0))
+        || model
+            .loads
+            .iter()
+            .any(|load| by_record(&load.kind) && parts().any(|part| Model::key(&part.name) == Model::key(&load.part)))
+}
+
+fn roll_warning(
+    linear: &LinearSystem,
+    meshed: &MeshedBodies,
+    (body, data): (&MeshedBody, &Database),
+) -> Option<String> {
     const ROLL: usize = 3;
-    let [body] = meshed.bodies.as_slice() else { return None };
     let node = linear.system.nodes.iter().position(|node| node.key == body.key)?;
     if !linear.system.nodes.get(node)?.moves(ROLL) {
         return None;
     }
     let at = MOTIONS * node + ROLL;
     // along the heading of the body its roll is about x
-    let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), -meshed.heading);
+    let turned = Rotation3::from_axis_angle(&Vector3::z_axis(), -meshed.heading - body.turn);
     let about = |all: &DMatrix<f64>| -> f64 {
         let block = all.fixed_view::<3, 3>(at, at);
         (turned.matrix() * block * turned.matrix().transpose())[(0, 0)]
@@ -295,7 +342,7 @@ pub fn roll_warning(linear: &LinearSystem, meshed: &MeshedBodies, data: &Databas
     (shares[0] < NO_ROLL_DAMPING && shares[1] < LIGHT_ROLL_DAMPING).then(|| {
         format!(
             "{}: roll has the damping of radiated waves alone, {:.2} % of critical at its natural period of {:.2} s, where it is too large: \
-             #DAMP or #TANAKA gives what eddies take",
+             #ROLL_DAMPING or #TANAKA gives what eddies take",
             body.name,
             100.0 * shares[1],
             TAU / frequency

@@ -22,6 +22,8 @@ use windlass_diffraction::{
     DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh, MirrorPlanes,
     Water,
 };
+use windlass_hydro::database::checks::MODES;
+use windlass_hydro::database::radiation::{OgilvieQuality, Radiation};
 use windlass_hydro::database::{DatabaseError, capytaine};
 use windlass_hydro::wetted_hull::WettedHull;
 use windlass_language::source::LARGEST_FILE;
@@ -36,8 +38,8 @@ const LEAST_PANELS_A_WAVE: f64 = 4.0;
 const MAX_PANELS: usize = 20_000;
 /// Bytes of a pair of panels in a symmetry class, its Rankine part included.
 const BYTES_A_PAIR: u64 = 24;
-/// Most bytes of all matrices.
-const MAX_BYTES: u64 = 8 << 30;
+/// Bytes that matrices may take where the system does not say how much memory is free.
+const USUAL_MEMORY: u64 = 8 << 30;
 /// Panels a wave length that the shortest of the usual periods has.
 const USUAL_PANELS_A_WAVE: f64 = 16.0;
 /// Frequencies where no periods are given: from the first, by a step, to the last (rad/s).
@@ -127,6 +129,11 @@ impl MeshedBodies {
     /// # Errors
     /// A hull that cannot be meshed; periods too short for the panels; more panels than memory.
     pub fn new(model: &Model, names: &[String], request: &PanelRequest) -> Outcome<Self> {
+        MeshedBodies::within(model, names, request, available_memory())
+    }
+
+    /// As [`MeshedBodies::new`], with so many bytes of memory.
+    fn within(model: &Model, names: &[String], request: &PanelRequest, available: u64) -> Outcome<Self> {
         let around = model.surroundings();
         let depth = request.depth.or(around.depth);
         let water = Water { density: around.water_density, gravity: around.gravity, depth };
@@ -175,26 +182,24 @@ impl MeshedBodies {
             None if hull.has_own_panels => hull.longest_side(),
             None => usual,
         };
-        // before they are made; the lid has about as many as its part of the area
+        // before they are made, and with those of the lids after that
         let least = |hull: &WettedHull| {
             let divided = hull.area / of_hull(hull).powi(2);
             if hull.has_own_panels { divided.max(hull.face_count() as f64) } else { divided }
         };
         let expected = hulls.iter().map(|(_, _, hull)| least(hull)).sum::<f64>() / images;
-        let pairs = expected * expected * images;
-        if !(expected <= MAX_PANELS as f64 && pairs * BYTES_A_PAIR as f64 <= MAX_BYTES as f64) {
-            let text = format!(
-                "{}: panels of {size:.3} m would be about {expected:.0} for each symmetry class, of {:.1} GB: {MAX_PANELS} and {} GB are the most",
-                names.join(", "),
-                pairs * BYTES_A_PAIR as f64 / f64::powi(2.0, 30),
-                MAX_BYTES >> 30
-            );
-            return Err(wrong(text).help("-PANEL gives a larger size"));
+        let refused = |problem: &ProblemSize| {
+            let text = format!("{}: {}", names.join(", "), problem.sentence(available));
+            wrong(text).help(problem.remedy(size, available))
+        };
+        let rough = ProblemSize { panels: expected, of_lids: 0.0, classes: images };
+        if !rough.fits(available) {
+            return Err(refused(&rough));
         }
         let mut bodies = Vec::new();
         let mut parts = Vec::new();
         for (key, body, hull) in hulls {
-            let refused = |error: DiffractionError| wrong(format!("{}: {error}", body.name));
+            let open = |error: DiffractionError| wrong(format!("{}: {error}", body.name));
             let turn = body.position.turn[2] - heading;
             let [x, y] = if alone { [0.0; 2] } else { shift_of(body) };
             let shift = Vector3::new(x, y, 0.0);
@@ -206,7 +211,7 @@ impl MeshedBodies {
                     *corner = axes * *corner + shift;
                 }
             }
-            let plain = HullMesh::new(&quads, mirrors).map_err(refused)?;
+            let plain = HullMesh::new(&quads, mirrors).map_err(open)?;
             let (mesh, has_lid) = plain.with_lid().map_or((plain, false), |mesh| (mesh, true));
             let volume = mesh.volumes()[2].abs() * images;
             let origin = shift + Vector3::new(0.0, 0.0, hull.origin_height);
@@ -214,6 +219,12 @@ impl MeshedBodies {
             let name = body.name.clone();
             bodies.push(MeshedBody { name, key, hull, origin, turn, has_lid, panels, lid_panels, volume });
             parts.push(DiffractionBody { mesh, origin });
+        }
+        let count = |of: &dyn Fn(&MeshedBody) -> usize| bodies.iter().map(of).sum::<usize>() as f64;
+        let of_lids = count(&|body| body.lid_panels);
+        let whole = ProblemSize { panels: count(&|body| body.panels) + of_lids, of_lids, classes: images };
+        if !whole.fits(available) {
+            return Err(refused(&whole));
         }
         let frequencies = choose_frequencies(names, request, size, water)?;
         Ok(MeshedBodies { bodies, heading, place, size, frequencies, water, mirrors, parts })
@@ -302,6 +313,55 @@ impl MeshedBodies {
     }
 }
 
+/// What a problem takes.
+struct ProblemSize {
+    /// Panels of a symmetry class, those of the lids among them.
+    panels: f64,
+    of_lids: f64,
+    classes: f64,
+}
+
+impl ProblemSize {
+    fn bytes(&self) -> f64 {
+        self.panels * self.panels * self.classes * BYTES_A_PAIR as f64
+    }
+
+    fn fits(&self, available: u64) -> bool {
+        self.panels <= MAX_PANELS as f64 && self.bytes() <= available as f64
+    }
+
+    fn sentence(&self, available: u64) -> String {
+        let [needed, free] = [self.bytes(), available as f64].map(gigabytes);
+        let lids = if self.of_lids > 0.0 { format!(", {:.0} of them of lids,", self.of_lids) } else { String::new() };
+        format!(
+            "about {:.0} panels{lids} in each of {:.0} symmetry classes take {needed} of memory: {free} are free, and {MAX_PANELS} panels are the most",
+            self.panels, self.classes
+        )
+    }
+
+    /// Panels go as the inverse square of their size, memory as the square of panels.
+    fn remedy(&self, size: f64, available: u64) -> String {
+        let by_memory = (self.bytes() / (available as f64).max(1.0)).powf(0.25);
+        let by_count = (self.panels / MAX_PANELS as f64).sqrt();
+        let larger = if size.is_finite() && size > 0.0 { 1.05 * size * by_memory.max(by_count) } else { size };
+        format!("-PANEL {larger:.3} fits, or hulls with planes of symmetry")
+    }
+}
+
+/// Bytes in words.
+fn gigabytes(bytes: f64) -> String {
+    if bytes < 1e8 { format!("{:.2} MB", bytes * 1e-6) } else { format!("{:.2} GB", bytes * 1e-9) }
+}
+
+/// Bytes of memory that programs may take.
+fn available_memory() -> u64 {
+    let kilobytes = |text: String| {
+        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+        line.split_whitespace().next()?.parse::<u64>().ok()
+    };
+    std::fs::read_to_string("/proc/meminfo").ok().and_then(kilobytes).map_or(USUAL_MEMORY, |kilobytes| kilobytes << 10)
+}
+
 /// The frequencies (rad/s), growing: those asked for, or what the panels carry of the usual ones.
 fn choose_frequencies(names: &[String], request: &PanelRequest, size: f64, water: Water) -> Outcome<Vec<f64>> {
     let wrong = |text: String| Diagnostic::error(format!("{}: {text}", names.join(", ")), request.span);
@@ -369,7 +429,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         }
     }
     let made = databases.clone();
-    let table = report(&meshed, &quality, &drift.said(&meshed));
+    let table = report(&meshed, &quality, (&drift.said(&meshed), &made));
     for (body, data) in meshed.bodies.iter().zip(databases) {
         take_hull(&mut job.model, body);
         let attached = AttachedDatabase {
@@ -384,9 +444,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         settle_pressure(&mut job.model, &body.name);
     }
     warn_of_quality(job, &meshed, &quality, span);
-    if let (DriftSource::Motions(linear), Some(data)) = (&drift, made.first())
-        && let Some(text) = panel_drift::roll_warning(linear, &meshed, data)
-    {
+    for text in panel_drift::roll_warnings(&job.model, &drift, &meshed, &made) {
         job.warn(text, span);
     }
     if let DriftSource::None(why) = &drift {
@@ -574,8 +632,17 @@ pub fn wave_length(frequency: f64, water: Water) -> f64 {
     TAU / k
 }
 
+/// How well added mass and damping go together, in short.
+fn ogilvie_figures(quality: &OgilvieQuality) -> String {
+    let percent = |(share, direction): (f64, usize)| {
+        format!("{:.2} % in {}", 100.0 * share.abs(), MODES.get(direction).copied().unwrap_or_default())
+    };
+    let limit = quality.shift.map_or_else(|| "too few frequencies".into(), percent);
+    format!("A(infinite) {limit}, frequencies {}", percent(quality.stray))
+}
+
 /// What was computed, a row a period.
-fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
+fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &[Database])) -> Table {
     let water = meshed.water;
     let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
     let rows: Vec<(f64, f64, f64, f64, usize, f64)> = meshed
@@ -609,7 +676,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
         None => table,
     };
     let mut table = table.build();
-    for body in &meshed.bodies {
+    for (body, data) in meshed.bodies.iter().zip(databases) {
         // of several bodies each fact names its own
         let fact = |text: &str| match meshed.bodies.len() {
             1 => text.to_owned(),
@@ -628,6 +695,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
         table = table.fact(&fact("Lid of the Waterplane"), lid, Dim::None);
         table = table.fact(&fact("Displaced Volume"), body.hull.volume, Dim::Volume);
         table = table.fact(&fact("By the Panels"), body.volume, Dim::Volume);
+        if let Ok(Some(radiation)) = Radiation::new(data) {
+            table = table.fact(&fact("Ogilvie's Relation"), ogilvie_figures(&radiation.quality), Dim::None);
+        }
     }
     table = table.fact("Symmetry", planes, Dim::None);
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
@@ -636,6 +706,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
         None => table.fact("Depth", "deep water", Dim::None),
     };
     table = table.fact("Mean Drift", drift, Dim::None);
+    table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
     table.note(
         "Haskind: largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
     );
@@ -648,4 +719,43 @@ fn report(meshed: &MeshedBodies, quality: &Quality, drift: &str) -> Table {
 /// The usual headings: all round by 15 degrees (rad).
 pub fn usual_headings() -> Vec<f64> {
     (0..24).map(|i| f64::from(i) * PI / 12.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::files::JobFolder;
+    use crate::report::output::Output;
+    use crate::session::Session;
+
+    #[test]
+    fn memory_of_lids_is_counted_and_refused_beyond_what_is_free() {
+        // a box of 40 x 12 x 4 m in panels of 2 m: a quarter of its sides and bottom is 56 panels, of its waterplane 30; (56 + 30)^2 x 4 classes x 24 bytes
+        // are 0.71 MB, the hull alone 0.30 MB
+        let folder = tempfile::tempdir().unwrap();
+        let job = JobFolder::new(folder.path().join("job"), None, false);
+        let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
+        let records = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\nBLOCK H -20 -6 -4 20 6 4\nEND\n";
+        session.open("records", records.to_owned());
+        session.run();
+        let request = PanelRequest {
+            headings: vec![0.0],
+            periods: vec![8.0],
+            size: Some(2.0),
+            depth: None,
+            has_drift: false,
+            is_checked: false,
+            kept: None,
+            span: Span::default(),
+        };
+        let within = |bytes: u64| MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, bytes);
+        let made = within(711_000).map_err(|error| error.message).unwrap();
+        assert_eq!((made.bodies[0].panels, made.bodies[0].lid_panels), (56, 30));
+        let refused = within(709_000).err().unwrap();
+        let text = format!("{} {}", refused.message, refused.help.join(" "));
+        assert!(
+            text.contains("30 of them of lids") && text.contains("0.71 MB") && text.contains("-PANEL 2.1"),
+            "{text}"
+        );
+    }
 }

@@ -27,6 +27,7 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
+use windlass_solve::slow_checks;
 use windlass_solve::time::{
     Ending, Method, Run, RunFileError, RunSettings, Snapshot, StepTolerance, TimeScheme, Trigger, Watcher,
 };
@@ -479,7 +480,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     warn_of_late_actions(job, &made, span);
     warn_of_lines(job, span);
     let mut going = RunProgress::new(job, &made, log);
-    for text in run_tables::warnings_of_step(&made) {
+    for text in run_tables::warnings_of_step(&made).into_iter().chain(slow_checks::warnings_of_slow_drift(&made)) {
         // at once for who looks on; for the log with the record
         going.bar.println(format!("warning: {text}"));
         job.warn(text, span);

@@ -39,9 +39,8 @@ pub(crate) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         let radiation = Radiation::new(data).ok().flatten();
         rows.push((body, attached, radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()))));
         data.remarks.iter().for_each(|text| whole.note(format!("{}: {text}", body.name)));
-        if let Some(stray) = radiation.as_ref().and_then(|r| r.estimated) {
-            let text = format!("{}: added mass at infinite frequency by Ogilvie's relation", body.name);
-            whole.note(format!("{text}; frequencies stray from it by {:.1} %", 100.0 * stray));
+        if let Some(radiation) = &radiation {
+            whole.note(format!("{}: {}", body.name, radiation.quality.sentence().0));
         }
         tables.extend(radiation.map(|r| radiation_table(body, attached, &r)));
         tables.extend(excitation(body, attached));

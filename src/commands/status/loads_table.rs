@@ -32,7 +32,7 @@ pub(crate) fn loads(job: &Job, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         .text("Record", |load| load.kind.name())
         .text("Acts in", |load| match (&load.kind, load.fluid) {
             (LoadKind::Drift { .. }, _) => "waves",
-            (LoadKind::Buoyancy { .. } | LoadKind::EddyDamping(_), _) => "water",
+            (LoadKind::Buoyancy { .. } | LoadKind::EddyDamping(_) | LoadKind::RollDamping(_), _) => "water",
             (LoadKind::Force(_), _) => "any",
             (LoadKind::Drag(_) | LoadKind::Damping(_) | LoadKind::AddedMass(_) | LoadKind::Lump(_), _) => "water",
             (_, Fluid::ByHeight) => "by height",

@@ -202,3 +202,51 @@ fn slow_surge_on_spring_matches_narrow_response_to_white_noise() {
     assert!((deviation / whole - 1.0).abs() < 3.0 * sure, "{deviation} {whole}");
     assert!((deviation / white - 1.0).abs() < 3.0 * sure + 0.02, "{deviation} {white}");
 }
+
+#[test]
+fn slow_mode_with_little_damping_is_named_with_period_and_ratio() {
+    // 10 t on 25 N/m: 2 pi/0.05 = 125.66 s; 2 zeta m w0 = 20 N s/m for zeta = 2 %, 40 for 4 %
+    let said = |damping: f64, sea: &str| {
+        let weight = 1e4 * 9.80665;
+        common::run_script(&format!(
+            "&DIMEN -DIMEN METERS N\n&DEFAULT -G 9.80665\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY B -IGNORE Y Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P {weight} 1 1 1\n#DAMP *P {damping}\n\
+             #DRIFT *P 180 5 100 0 0 0 0 0 20 10 0 0 0 0 0\n#DRIFT *P 0 5 -100 0 0 0 0 0 20 -10 0 0 0 0 0\n\
+             ~S GSPR BOTH X 25 1E9 -LEN 0\nCONNECTOR K ~S *P *G\nEND\n&ENV {sea} -RAMP 10 -TIME 20 0.5\nTDOM\n"
+        ))
+        .1
+    };
+    let named = |list: &[String], text: &str| list.iter().any(|line| line.contains(text));
+    let light = said(20.0, "-SEA ISSC 180 2 9");
+    assert!(named(&light, "the slow mode B X with a period of 125.7 s has 2.00 % of critical damping"), "{light:?}");
+    assert!(!named(&said(40.0, "-SEA ISSC 180 2 9"), "slow mode"));
+}
+
+#[test]
+fn newman_in_shallow_water_is_warned_of_by_mean_kh() {
+    // two waves of equal energy, of 10 s and 12 s; their wave numbers by halving of w2 = g k tanh(k h)
+    let number = |period: f64, depth: f64| {
+        let (mut low, mut high) = (1e-6, 1.0);
+        for _ in 0..100 {
+            let k = 0.5 * (low + high);
+            if 9.80665 * k * f64::tanh(k * depth) > (TAU / period).powi(2) { high = k } else { low = k }
+        }
+        low
+    };
+    let said = |depth: f64| {
+        let weight = 1e4 * 9.80665;
+        common::run_script(&format!(
+            "&DIMEN -DIMEN METERS N\n&DEFAULT -G 9.80665\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY B -IGNORE Y Z RX RY RZ\n*P 0 0 0\n#WEIGHT *P {weight} 1 1 1\n#DAMP *P 400\n\
+             #DRIFT *P 180 5 100 0 0 0 0 0 20 10 0 0 0 0 0\n#DRIFT *P 0 5 -100 0 0 0 0 0 20 -10 0 0 0 0 0\n\
+             ~S GSPR BOTH X 25 1E9 -LEN 0\nCONNECTOR K ~S *P *G\nEND\n\
+             &ENV -SEA REGULAR 180 1 10 -A_SEA REGULAR 180 1 12 -DEPTH {depth} -RAMP 10 -TIME 20 0.5\nTDOM\n"
+        ))
+        .1
+    };
+    let shallow = said(12.0);
+    let mean = 0.5 * (number(10.0, 12.0) + number(12.0, 12.0)) * 12.0;
+    assert!(mean < 1.0);
+    let text = format!("k h is {mean:.2}");
+    assert!(shallow.iter().any(|line| line.contains(&text)), "{text}: {shallow:?}");
+    assert!(0.5 * (number(10.0, 40.0) + number(12.0, 40.0)) * 40.0 > 1.0);
+    assert!(!said(40.0).iter().any(|line| line.contains("k h")));
+}

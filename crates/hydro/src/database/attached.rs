@@ -412,6 +412,18 @@ fn mean(model: &Model, attached: &AttachedDatabase) -> Result<Option<SlowDrift>,
     SlowDrift::mean_of(&table, data.reference, &seas).map(Some)
 }
 
+/// The hydrostatics of the database of a body as a load.
+///
+/// # Errors
+/// A database without them; a body whose buoyancy would count twice.
+pub(crate) fn hydrostatics_load(
+    model: &Model,
+    body: &Body,
+    attached: &AttachedDatabase,
+) -> Result<Box<dyn BodyLoad>, ClassError> {
+    Ok(Box::new(hydrostatics(model, body, attached)?))
+}
+
 /// The hydrostatics of the database about the centre of gravity, with a buoyancy that bears the weight.
 ///
 /// The matrix of a source holds the moment of the weight, too; about the centre of gravity that is nothing, so that nothing counts twice.

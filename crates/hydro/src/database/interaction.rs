@@ -27,6 +27,15 @@ pub fn interaction_about_origins(pair: &InteractingBodies) -> Option<Database> {
     })
 }
 
+/// The interaction as the radiation of one body, with its kernel; none where a body has no radiation.
+///
+/// # Errors
+/// Databases of one frequency.
+pub fn interaction_radiation(pair: &InteractingBodies) -> Result<Option<(Database, Radiation)>, ClassError> {
+    let Some(data) = interaction_about_origins(pair) else { return Ok(None) };
+    Ok(Radiation::of_interaction(&data)?.map(|radiation| (data, radiation)))
+}
+
 /// Forces of the waves that a body radiates on another, in time.
 #[derive(Clone, Debug)]
 pub struct InteractionLoad {
@@ -117,8 +126,7 @@ pub fn gather_interactions(
 ) -> Result<Vec<GatheredInteraction>, ClassError> {
     let mut list = Vec::new();
     for pair in model.interactions() {
-        let Some(data) = interaction_about_origins(&pair) else { continue };
-        let Some(radiation) = Radiation::new(&data)? else { continue };
+        let Some((_, radiation)) = interaction_radiation(&pair)? else { continue };
         let load = match under_way {
             None => None,
             Some(sea) => {

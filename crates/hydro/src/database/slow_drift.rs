@@ -212,7 +212,7 @@ impl SlowDrift {
     }
 }
 
-/// The mean drift: each frequency with itqtf.
+/// The mean drift: each frequency with itself.
 pub fn mean_drift(qtf: &Qtf) -> DriftTable {
     let real =
         |table: &Vec<Vec<[Complex<f64>; 6]>>| table.iter().enumerate().map(|(i, row)| row[i].map(|v| v.re)).collect();
@@ -221,6 +221,28 @@ pub fn mean_drift(qtf: &Qtf) -> DriftTable {
         headings: qtf.headings.clone(),
         values: qtf.values.iter().map(real).collect(),
     }
+}
+
+/// `k h` above which Newman's approximation is let pass.
+const LEAST_DEPTH_IN_WAVES: f64 = 1.0;
+
+/// What is wrong with Newman's approximation in waves given as energies (m2) with wave numbers (1/m), in water of a depth (m), in words. The product of
+/// mean drifts has nothing of the long wave that is bound to a group, the set-down, whose elevation grows as the inverse of the depth: in water that is
+/// shallow for the waves it makes most of the force at differences of frequencies [PINKSTER-1980]. One wave alone has none.
+pub fn remark_on_depth(waves: impl Iterator<Item = (f64, f64)>, depth: Option<f64>) -> Option<String> {
+    let depth = depth?;
+    let (mut energies, mut sum, mut range) = (0.0, 0.0, [f64::INFINITY, 0.0_f64]);
+    for (energy, number) in waves.filter(|(energy, _)| *energy > 0.0) {
+        (energies, sum) = (energies + energy, sum + energy * number);
+        range = [range[0].min(number), range[1].max(number)];
+    }
+    let over = sum / energies * depth;
+    (range[0] < range[1] && over < LEAST_DEPTH_IN_WAVES).then(|| {
+        format!(
+            "Newman's approximation of slow drift lacks the set-down of wave groups, which counts in water as shallow as this: k h is {over:.2} at the mean wave number, \
+             and {LEAST_DEPTH_IN_WAVES} is the least that is let pass; a full QTF (DATABASE -DRIFT QTF) has it"
+        )
+    })
 }
 
 impl BodyLoad for SlowDrift {

@@ -9,9 +9,10 @@ use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
-use windlass_hydro::database::interaction::interaction_about_origins;
+use windlass_hydro::database::interaction::interaction_radiation;
 use windlass_hydro::database::radiation::Radiation;
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
+use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
 use windlass_model::{
@@ -98,9 +99,8 @@ impl LinearInteraction {
         let mut list = Vec::new();
         for pair in model.interactions() {
             let (Some(on), Some(by)) = (number(pair.on.0), number(pair.by.0)) else { continue };
-            let Some(data) = interaction_about_origins(&pair) else { continue };
-            let radiation = Radiation::new(&data).map_err(SolveError::error_about(&pair.on.1.name))?;
-            let Some(radiation) = radiation else { continue };
+            let found = interaction_radiation(&pair).map_err(SolveError::error_about(&pair.on.1.name))?;
+            let Some((data, radiation)) = found else { continue };
             let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
             list.push(LinearInteraction { on, by, data, infinite: radiation.infinite, factor });
         }
@@ -466,6 +466,8 @@ fn rotate_amplitudes([x, y, z, rx, ry, rz]: Amplitudes, angle: f64) -> Amplitude
 /// The bodies under way in calm water, without what databases bring and without gusts.
 fn calm(model: &Model) -> Result<System, SolveError> {
     let mut calm = model.clone();
+    // with the added mass of the databases
+    fix_critical_damping(&mut calm).map_err(SolveError::new)?;
     calm.bodies.values_mut().for_each(|b| b.database = None);
     calm.environment.gusts = None;
     System::under_way(&calm, None, RunRequirements::default())

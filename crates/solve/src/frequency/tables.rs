@@ -10,8 +10,9 @@ use crate::equilibrium::is_unstable;
 use crate::system::{DOFS, SolveError, SystemBody};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
-use windlass_base::table::{Digits, Table, TableBuilder};
+use windlass_base::table::{Digits, Table, TableBuilder, TableNote};
 use windlass_base::units::Dim;
+use windlass_hydro::database::slow_drift::remark_on_depth;
 
 /// A quantity with its name and what it measures.
 #[derive(Clone, Debug, PartialEq)]
@@ -159,6 +160,9 @@ pub fn spectra(
 fn notes(table: &mut Table, linear: &LinearSystem, response: &FrequencyResponse) {
     if !response.slow.is_empty() {
         table.note("slow drift by Newman's approximation stands below the frequencies of the waves");
+        let number = |point: &ResponsePoint| Some((point.energy, linear.wave_number(point.frequency).ok()?));
+        let remark = remark_on_depth(response.waves.iter().filter_map(number), linear.depth);
+        table.add_notes(remark.map(TableNote::warning));
     }
     if linear.sails() {
         table.note("frequencies and densities are those of the waves; Tz is that of the motions, which are met at the frequency of encounter");

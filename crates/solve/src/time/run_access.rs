@@ -5,6 +5,8 @@ use super::forces::BodyMotion;
 use super::run::Run;
 use super::snapshot::Snapshot;
 use crate::link::Link;
+use crate::system::SystemBody;
+use windlass_hydro::Category;
 use windlass_hydro::sea::Sea;
 use windlass_model::{EnergyBalance, Model};
 
@@ -31,6 +33,17 @@ impl Run {
             link.element.as_dynamic()?.energy_balance(state).map(|balance| (link.name.clone(), balance))
         };
         self.system.links.iter().filter_map(of).collect()
+    }
+
+    /// Names of the bodies that wave drift acts on.
+    pub fn drifting_bodies(&self) -> impl Iterator<Item = &str> {
+        let drifts = |node: &&SystemBody| node.floating.loads.iter().any(|load| load.category() == Category::WaveDrift);
+        self.system.nodes.iter().filter(drifts).map(|node| node.name.as_str())
+    }
+
+    /// Number of degrees of freedom that move.
+    pub fn free_degrees(&self) -> usize {
+        self.system.nodes.iter().flat_map(|node| node.free).filter(|free| *free).count()
     }
 
     /// Motions now.
