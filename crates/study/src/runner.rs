@@ -3,7 +3,7 @@
 use crate::kept::LineRow;
 use crate::record::{CaseRecord, CaseStatus, FileRead};
 use crate::records::{RecordView, Records};
-use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, results_file};
+use crate::store::{Files, INFO, KEPT_CASES, Study, StudyError, StudyInfo, UNFINISHED, results_file};
 use crate::table::{Case, CaseTable};
 use serde::{Deserialize, Serialize};
 use std::borrow::Borrow;
@@ -365,6 +365,12 @@ pub fn begin_study<'a>(
 ) -> Result<BegunStudy<'a>, StudyError> {
     let folder = plan.folder.as_path();
     files.make_folder(folder).map_err(StudyError::of(folder))?;
+    for entry in std::fs::read_dir(folder).map_err(StudyError::of(folder))? {
+        let entry = entry.map_err(StudyError::of(folder))?;
+        if entry.file_name().to_string_lossy().starts_with(UNFINISHED) {
+            files.remove(&entry.path()).map_err(StudyError::of(folder))?;
+        }
+    }
     let info_path = folder.join(INFO);
     let earlier = if info_path.exists() {
         Some(Study::open_with(folder, &mut |path, valid| files.truncate(path, valid))?)

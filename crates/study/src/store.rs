@@ -41,6 +41,9 @@ impl StudyError {
     }
 }
 
+/// How the names of files begin that were not whole when a study was killed.
+pub(crate) const UNFINISHED: &str = ".unfinished-";
+
 /// What puts the bytes of a file into it.
 pub type Fill<'a> = dyn FnMut(&mut (dyn Write + Send)) -> io::Result<()> + 'a;
 
@@ -117,6 +120,7 @@ impl Files for SystemFiles {
 
     fn write_by(&self, path: &Path, fill: &mut Fill) -> io::Result<()> {
         let mut builder = tempfile::Builder::new();
+        builder.prefix(UNFINISHED);
         // as readable as any file that a program makes: the mask of the user applies
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));

@@ -326,6 +326,16 @@ fn what_has_changed_is_run_again_and_said_why() {
 }
 
 #[test]
+fn study_killed_while_its_first_file_was_written_begins_anew() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = plan(folder.path());
+    fs::create_dir(&plan.folder).unwrap();
+    fs::write(plan.folder.join(".unfinished-a1b2c3"), "{\"model\":").unwrap();
+    let end = run_study(&plan, &SystemFiles, &Squares, &AtomicBool::new(false), &|_| ()).unwrap();
+    assert_eq!((end.progress.finished, plan.folder.join(".unfinished-a1b2c3").exists()), (6, false));
+}
+
+#[test]
 fn folder_of_something_else_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let plan = plan(folder.path());
