@@ -439,7 +439,7 @@ fn check_hull(hull: &RawHull, structure: &StructureDeck, remarks: &mut Remarks) 
         }
     }
     let sides = hull.sides();
-    let mut ends: Vec<(&[usize; 2], &Vec<(usize, bool)>)> = sides.iter().collect();
+    let mut ends: Vec<_> = sides.iter().collect();
     ends.sort_unstable();
     for (side, panels) in ends {
         let Some((panel, _)) = panels.first().and_then(|(number, _)| hull.panels.get(*number)) else { continue };

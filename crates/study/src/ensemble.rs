@@ -101,7 +101,8 @@ impl<'a> Ensemble<'a> {
             }
         }
         // of each segment its largest and its least tensions
-        let mut tensions: [IndexMap<(String, Option<usize>), Vec<f64>>; 2] = Default::default();
+        type OfSegments = IndexMap<(String, Option<usize>), Vec<f64>>;
+        let mut tensions: [OfSegments; 2] = Default::default();
         for case in ended() {
             let mut seen: [HashSet<(String, Option<usize>)>; 2] = Default::default();
             for row in case.lines() {
