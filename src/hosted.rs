@@ -180,6 +180,7 @@ impl LineWater {
     ///
     /// # Errors
     /// What the record refuses; what lines of a program do not feel: marine growth, a bottom over a grid; a depth or density of its own.
+    #[allow(clippy::result_large_err)]
     pub fn ambient(&self, options: &str) -> Result<Arc<dyn Ambient>, HostMessage> {
         let refuse = |text: &str| Err(HostMessage::plain(Severity::Error, text, Vec::new()));
         if options.len() > LONGEST_ENVIRONMENT

@@ -291,6 +291,7 @@ fn refused(error: &StudyError, complain: &dyn Fn(&str)) -> StudyExit {
 }
 
 /// Runs something that says how far it is, with a bar at a terminal.
+#[allow(clippy::type_complexity)]
 fn with_bar<T>(run: &mut dyn FnMut(&(dyn Fn(Progress) + Sync)) -> T) -> T {
     let bar = progress_bar();
     let made = run(&|progress| {

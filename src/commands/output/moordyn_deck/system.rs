@@ -18,6 +18,7 @@ pub(super) struct WrittenDeck {
     /// Names and texts of the files.
     pub files: Vec<(String, String)>,
     /// What was left out or assumed.
+    #[allow(clippy::vec_box)]
     pub notes: Vec<Box<Diagnostic>>,
 }
 
@@ -51,6 +52,7 @@ pub(super) struct DeckWriter<'a> {
     /// What bodies are, by their keys.
     pub(super) bodies: IndexMap<String, BodyRole>,
     pub(super) files: Vec<(String, String)>,
+    #[allow(clippy::vec_box)]
     pub(super) notes: Vec<Box<Diagnostic>>,
     /// What the free text before the first section says.
     heads: Vec<String>,
