@@ -180,9 +180,8 @@ impl LineWater {
     ///
     /// # Errors
     /// What the record refuses; what lines of a program do not feel: marine growth, a bottom over a grid; a depth or density of its own.
-    #[allow(clippy::result_large_err)]
-    pub fn ambient(&self, options: &str) -> Result<Arc<dyn Ambient>, HostMessage> {
-        let refuse = |text: &str| Err(HostMessage::plain(Severity::Error, text, Vec::new()));
+    pub fn ambient(&self, options: &str) -> Result<Arc<dyn Ambient>, Box<HostMessage>> {
+        let refuse = |text: &str| Err(Box::new(HostMessage::plain(Severity::Error, text, Vec::new())));
         if options.len() > LONGEST_ENVIRONMENT
             || options.contains(|letter: char| letter.is_control() || "$&%\\".contains(letter))
         {
@@ -198,7 +197,7 @@ impl LineWater {
             ended
         };
         if let Some(error) = ended.error {
-            return Err(error);
+            return Err(Box::new(error));
         }
         let model = &mut hosted.session.job.model;
         if model.environment.depth.is_some() || model.environment.water_density.is_some() {
@@ -207,7 +206,8 @@ impl LineWater {
         (model.environment.depth, model.environment.water_density) = (self.depth, Some(self.density));
         model.defaults.gravity = self.gravity;
         let wrong = |error: windlass_model::ClassError| {
-            HostMessage::plain(Severity::Error, error.diagnostic(Span::default(), UnitSystem::SI).message, Vec::new())
+            let text = error.diagnostic(Span::default(), UnitSystem::SI).message.clone();
+            Box::new(HostMessage::plain(Severity::Error, text, Vec::new()))
         };
         let sea = Sea::new(model, &model.environment).map_err(wrong)?.map(Arc::new);
         let ambient = windlass_hydro::ambient(model, sea.as_ref()).map_err(wrong)?;

@@ -432,8 +432,7 @@ impl WavePicture {
                 (top + height / 2) * SUBPIXELS - off(y, 0.5 * (low[1] + high[1])).round() as i32,
             )
         };
-        #[allow(clippy::type_complexity)]
-        let mut seen: Vec<(f64, &([Vector3<f64>; 4], C))> = self
+        let mut seen: Vec<_> = self
             .panels
             .iter()
             .filter(|([a, b, c, d], _)| (c - a).cross(&(d - b)).dot(&out) > 0.0)

@@ -290,9 +290,11 @@ fn refused(error: &StudyError, complain: &dyn Fn(&str)) -> StudyExit {
     if matches!(error, StudyError::Folder { .. }) { StudyExit::Usage } else { StudyExit::Failed }
 }
 
+/// What takes how far a study is.
+type Told<'a> = dyn Fn(Progress) + Sync + 'a;
+
 /// Runs something that says how far it is, with a bar at a terminal.
-#[allow(clippy::type_complexity)]
-fn with_bar<T>(run: &mut dyn FnMut(&(dyn Fn(Progress) + Sync)) -> T) -> T {
+fn with_bar<T>(run: &mut dyn FnMut(&Told<'_>) -> T) -> T {
     let bar = progress_bar();
     let made = run(&|progress| {
         bar.set_length(progress.total as u64);

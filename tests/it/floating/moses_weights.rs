@@ -244,7 +244,7 @@ fn roll_damping_in_per_cent_of_critical_is_that_of_the_closed_form() {
         assert_eq!(errors, 0, "{text}");
         let rows =
             text.lines().map(|line| line.split_whitespace().filter_map(|w| w.parse().ok()).collect::<Vec<f64>>());
-        rows.filter(|row| row.len() > 7).filter_map(|row| row.get(5).copied()).last().unwrap()
+        rows.filter(|row| row.len() > 7).filter_map(|row| row.get(5).copied()).next_back().unwrap()
     };
     let percent = decay("#ROLL_DAMPING -CRITICAL 4");
     // about the origin the body is held there: I about it is 4 % of a half metre squared more, 0.25/19.2 = 1.3 %, which the period and the decay have

@@ -52,8 +52,6 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         write_file(job, file, text.as_bytes(), span)?;
     }
     write_file(job, name, written.text.as_bytes(), span)?;
-    for note in written.notes {
-        job.notices.push(*note);
-    }
+    job.notices.extend(written.notes);
     Ok(Effect::Done)
 }

@@ -18,8 +18,7 @@ pub(super) struct WrittenDeck {
     /// Names and texts of the files.
     pub files: Vec<(String, String)>,
     /// What was left out or assumed.
-    #[allow(clippy::vec_box)]
-    pub notes: Vec<Box<Diagnostic>>,
+    pub notes: Vec<Diagnostic>,
 }
 
 /// What a body of the model is in the deck.
@@ -52,8 +51,7 @@ pub(super) struct DeckWriter<'a> {
     /// What bodies are, by their keys.
     pub(super) bodies: IndexMap<String, BodyRole>,
     pub(super) files: Vec<(String, String)>,
-    #[allow(clippy::vec_box)]
-    pub(super) notes: Vec<Box<Diagnostic>>,
+    pub(super) notes: Vec<Diagnostic>,
     /// What the free text before the first section says.
     heads: Vec<String>,
 }
@@ -119,7 +117,7 @@ impl<'a> DeckWriter<'a> {
     }
 
     pub(super) fn remark(&mut self, text: impl Into<String>) {
-        self.notes.push(Diagnostic::remark(text, self.span));
+        self.notes.push(*Diagnostic::remark(text, self.span));
     }
 
     /// A line of the free text, such as which name of the model a row has.
