@@ -250,7 +250,7 @@ pub fn run(args: &StudyArgs, out: &mut impl Write, complain: &dyn Fn(&str)) -> S
     if slurm.is_some() || args.parts.is_some() {
         return parts::distribute(args, &plan, slurm.as_ref(), &processes, &stop, out, complain);
     }
-    let ended = match with_bar(&mut |told| run_study(&plan, &SystemFiles, &processes, &stop, told)) {
+    let ended = match with_bar(&mut |report| run_study(&plan, &SystemFiles, &processes, &stop, report)) {
         Ok(ended) => ended,
         Err(error) => return refused(&error, complain),
     };
@@ -291,10 +291,10 @@ fn refused(error: &StudyError, complain: &dyn Fn(&str)) -> StudyExit {
 }
 
 /// What takes how far a study is.
-type Told<'a> = dyn Fn(Progress) + Sync + 'a;
+type ReportProgress<'a> = dyn Fn(Progress) + Sync + 'a;
 
 /// Runs something that says how far it is, with a bar at a terminal.
-fn with_bar<T>(run: &mut dyn FnMut(&Told<'_>) -> T) -> T {
+fn with_bar<T>(run: &mut dyn FnMut(&ReportProgress<'_>) -> T) -> T {
     let bar = progress_bar();
     let made = run(&|progress| {
         bar.set_length(progress.total as u64);

@@ -116,7 +116,7 @@ fn measure(
         return Ok(None);
     }
     let places = sample(begun.pending.len(), args.sample.unwrap_or(SAMPLE).into());
-    let ran = with_bar(&mut |told| begun.run_sample(&places, plan, &SystemFiles, processes, stop, told));
+    let ran = with_bar(&mut |report| begun.run_sample(&places, plan, &SystemFiles, processes, stop, report));
     ran.map(|()| expected(begun))
 }
 
@@ -185,7 +185,7 @@ pub(super) fn run_part(
             return StudyExit::Failed;
         }
     };
-    let ended = with_bar(&mut |told| part.run((jobs, scratch.path()), &SystemFiles, &processes, stop, told));
+    let ended = with_bar(&mut |report| part.run((jobs, scratch.path()), &SystemFiles, &processes, stop, report));
     let ended = match ended {
         Ok(ended) => ended,
         Err(error) => return refused(&error, complain),

@@ -25,7 +25,7 @@ fn number(node: &Node, name: &str, is_endless: bool) -> Outcome<Given<f64>> {
     };
     let Some(value) = value else {
         let shown = if text.is_empty() { "a list or nothing" } else { text };
-        return Err(Diagnostic::error(format!("{name} is no number: {shown}"), node.span).label("expected a number"));
+        return Err(Diagnostic::error(format!("{name} is not a number: {shown}"), node.span).label("expected a number"));
     };
     Ok(Given { value, span: node.span })
 }

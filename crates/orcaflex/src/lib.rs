@@ -1,4 +1,4 @@
-//! OrcaFlex text models [ORCAFLEX-A01], read into [`TextModel`](model::TextModel): General, Environment, LineTypes, Vessels (their places), Lines.
+//! OrcaFlex text models [ORCAFLEX-A01], read into [`model::TextModel`]: General, Environment, LineTypes, Vessels (their places), Lines.
 //!
 //! [`records`] translates a model into records of windlass. Values are in the units of the file: m, te, kN, s, deg.
 //! Names of data are those of the examples that Orcina ships, as published [ORCAFLEX-A01]. Data that bear a load and are not read are an error at their place; the

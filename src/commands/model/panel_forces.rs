@@ -735,7 +735,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let job = JobFolder::new(folder.path().join("job"), None, false);
         let mut session = Session::new(Output::new(job, Box::new(std::io::sink()), Box::new(std::io::sink()), false));
-        let records = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\nBLOCK H -20 -6 -4 20 6 4\nEND\n";
+        let records = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\n&SURFACE\nBLOCK H -20 -6 -4 20 6 4\nEND_&SURFACE\nEND\n";
         session.open("records", records.to_owned());
         session.run();
         let request = PanelRequest {

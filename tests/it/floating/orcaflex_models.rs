@@ -57,7 +57,7 @@ fn dynamic_lines_of_a_model_rest_near_their_catenaries() {
 fn wrong_models_are_errors_at_their_words() {
     let good = std::fs::read_to_string(format!("{FOLDER}/two_lines.yml")).unwrap();
     for (old, new, word, message) in [
-        ("OD: 0.15", "OD: wide", "wide", "OD is no number"),
+        ("OD: 0.15", "OD: wide", "wide", "OD is not a number"),
         ("WaterDepth: 100", "WaterDepht: 100", "Environment", "gives no depth"),
         ("Groups:", "3DBuoys:", "3DBuoys", "3DBuoys is not read"),
         ("EA: 800e3", "EA: [800e3", "", "is no YAML"),

@@ -11,10 +11,10 @@ fn with(old: &str, new: &str) -> (String, String) {
 #[test]
 fn wrong_values_are_errors_at_their_words() {
     let cases = [
-        ("OD: 0.15", "OD: wide", "OD is no number: wide", "wide"),
+        ("OD: 0.15", "OD: wide", "OD is not a number: wide", "wide"),
         ("OD: 0.15", "OD: 0", "OD is 0", "0"),
-        ("OD: 0.15", "OD: 1e999", "OD is no number: 1e999", "1e999"),
-        ("EA: 800e3", "EA: Rope stiffness", "EA is no number: Rope stiffness", "Rope stiffness"),
+        ("OD: 0.15", "OD: 1e999", "OD is not a number: 1e999", "1e999"),
+        ("EA: 800e3", "EA: Rope stiffness", "EA is not a number: Rope stiffness", "Rope stiffness"),
         ("UnitsSystem: SI", "UnitsSystem: US", "UnitsSystem US is not read", "US"),
         ("SeabedType: Flat", "SeabedType: Profile", "SeabedType Profile is not read", "Profile"),
         ("SeabedSlope: 0", "SeabedSlope: 2", "SeabedSlope 2 is not read", "2"),
