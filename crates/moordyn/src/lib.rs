@@ -10,7 +10,7 @@
 //!
 //! Files of MAP++ [MAP-PP] are read into the same tables: [`map`].
 //!
-//! [`write`] makes the text of a deck of a [`Deck`].
+//! [`mod@write`] makes the text of a deck of a [`Deck`].
 //!
 //! Not done here: the files that a deck names are not opened; [`files`] reads their texts.
 //!
