@@ -101,6 +101,7 @@ mod floating {
     mod panel_forces;
     mod piece_loads;
     mod quay;
+    mod semi_panels;
     mod semi_study;
     mod side_by_side;
     mod steady_loads;
