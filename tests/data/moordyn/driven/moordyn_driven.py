@@ -1,0 +1,90 @@
+"""MoorDyn 2.7.2 over the decks beside this file: moordyn_driven.csv, the largest and the least of what the last periods of a run have, with 20 and
+with 40 segments a line. Run in a Python with moordyn and numpy; `moordyn_driven.py DECK ...` runs these alone and prints.
+
+The fairlead moves by a sine in x and z with a period of 10 s, or stands in waves. Forces are those on the fairlead's point; places are those of the
+free point, the body (with its pitch) and end A of the rod. The step of the coupling is 0.01 s: MoorDyn goes straight on within it."""
+import os
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+
+import moordyn
+import numpy as np
+
+HERE = pathlib.Path(__file__).parent
+PERIOD, STEP = 10.0, 0.01
+# MoorDyn prints from C
+SAID = os.fdopen(os.dup(1), "w")
+os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+
+
+def clump(system):
+    _, _, z = moordyn.GetPointPos(moordyn.GetPoint(system, 2))
+    return {"z": z}
+
+
+def body(system):
+    x, _, _, _, pitch, _ = moordyn.GetBodyState(moordyn.GetBody(system, 1))[0]
+    return {"x": x, "pitch": np.degrees(pitch)}
+
+
+def rod(system):
+    x, _, z = moordyn.GetRodNodePos(moordyn.GetRod(system, 1), 0)
+    return {"x": x, "z": z}
+
+
+def nothing(_):
+    return {}
+
+
+# fairlead, its amplitudes in x and z (m), end of the run and beginning of what counts (s), the steps of MoorDyn with 20 and 40 segments (s)
+DECKS = {
+    "clump": (3, (1.5, 1.0), 120, 90, (1e-3, 5e-4), clump),
+    "body": (8, (1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
+    "rod": (2, (1.0, 0.8), 120, 90, (5e-4, 5e-4), rod),
+    "current": (2, (0.8, 0.5), 120, 90, (1e-3, 5e-4), nothing),
+    "waves": (2, (0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
+    "elevation": (2, (0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
+}
+
+
+def run(name, segments, step):
+    """The largest and the least of each quantity."""
+    fairlead, (ax, az), end, begin, steps, places = DECKS[name]
+    text = (HERE / f"{name}.txt").read_text()
+    text = re.sub(r"(?m)^(\d+ +(?:rope|soft) .*) 20 +-$", rf"\1 {segments} -", text)
+    text = re.sub(r"(?m)^\S+ +dtM$", f"{step} dtM", text)
+    with tempfile.TemporaryDirectory() as folder:
+        for path in HERE.glob("*.txt"):
+            shutil.copy(path, folder)
+        path = pathlib.Path(folder) / "deck.txt"
+        path.write_text(text)
+        system = moordyn.Create(str(path))
+        start = np.array(next([float(x) for x in row[2:5]] for row in map(str.split, text.splitlines()) if row[1:2] == ["Coupled"]))
+        amplitude, frequency = np.array([ax, 0.0, az]), 2 * np.pi / PERIOD
+        moordyn.Init(system, list(start), [0.0] * 3)
+        point = moordyn.GetPoint(system, fairlead)
+        found = {}
+        for index in range(round(end / STEP)):
+            time = index * STEP
+            place = start + amplitude * np.sin(frequency * time)
+            moordyn.Step(system, list(place), list(amplitude * frequency * np.cos(frequency * time)), time, STEP)
+            if time >= begin:
+                now = {"force": np.linalg.norm(moordyn.GetPointForce(point))} | places(system)
+                for quantity, value in now.items():
+                    found.setdefault(quantity, []).append(value)
+        moordyn.Close(system)
+    return {quantity: (max(values), min(values)) for quantity, values in found.items()}
+
+
+chosen = sys.argv[1:] or list(DECKS)
+rows = ["deck,segments,quantity,largest,least"]
+for name in chosen:
+    for segments, step in zip((20, 40), DECKS[name][4]):
+        rows += [f"{name},{segments},{quantity},{largest:.6g},{least:.6g}" for quantity, (largest, least) in run(name, segments, step).items()]
+if sys.argv[1:]:
+    print("\n".join(rows), file=SAID)
+else:
+    (HERE / "moordyn_driven.csv").write_text("\n".join(rows) + "\n")
