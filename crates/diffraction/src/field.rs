@@ -2,6 +2,7 @@
 //! [LEE-2007].
 
 use crate::gauss::GaussRule;
+use crate::influence::{FlowRoom, Strengths};
 use crate::problem::DiffractionProblem;
 use crate::rankine::{LevelImage, mirrored};
 use crate::wave_solution::WaveSolution;
@@ -19,10 +20,6 @@ static RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(12));
 static BOX_RULE: LazyLock<GaussRule> = LazyLock::new(|| GaussRule::new(8));
 /// Directions around a control surface, beyond four for each wave length of its circumference over pi.
 const SPARE_DIRECTIONS: usize = 24;
-/// Step of differences of the potential, over the least of radius, depth and 1/k of the control surface: the error of the differences, and
-/// that of the tables in them, are some 1e-4.
-const DIFFERENCE_SHARE: f64 = 0.01;
-
 /// An upright cylinder in the water around one or more bodies, from the mean level down; no hull may cross it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlCylinder {
@@ -72,8 +69,8 @@ const CONTROL_SHARE: f64 = 0.25;
 /// Most rules along a side of a control surface.
 const MAX_PIECES: usize = 40;
 
-/// Points may lie so far below the bottom, over the depth, as differences at it need; the potential is smooth through it.
-const BOTTOM_ROOM: f64 = 0.02;
+/// Points on the bottom may lie below it by rounding of this share of the depth.
+const BOTTOM_ROOM: f64 = 1e-9;
 
 /// What of the mean momentum flux at a point goes to a body.
 struct FluxPoint {
@@ -88,25 +85,8 @@ impl WaveSolution {
     /// of the bodies in it: heading by heading, then point by point. Within a panel's size of a hull it is no better than the panels. None where
     /// the motions are not those of all headings, or a point is above the mean level, below the bottom or not finite.
     pub fn potentials(&self, motions: &[Vec<C>], points: &[Vector3<f64>]) -> Option<Vec<Vec<C>>> {
-        let lowest = self.wave.depth.map_or(f64::NEG_INFINITY, |depth| -depth * (1.0 + BOTTOM_ROOM));
-        let is_in_water = |at: &Vector3<f64>| at.iter().all(|x| x.is_finite()) && at.z <= 0.0 && at.z >= lowest;
-        if motions.len() != self.headings.len() || !points.iter().all(is_in_water) {
-            return None;
-        }
-        let sources: Vec<(Vec<C>, Vec<C>)> =
-            motions.iter().enumerate().map(|(i, motions)| self.sent_out(i, motions)).collect::<Option<_>>()?;
-        let first = points.first().copied().unwrap_or_default();
-        let horizontal = |point: &Vector3<f64>| (point.x - first.x).hypot(point.y - first.y);
-        let farthest = |points: &mut dyn Iterator<Item = &Vector3<f64>>| points.map(horizontal).fold(0.0, f64::max);
-        let corners = || self.mesh.hull().iter().flat_map(|panel| panel.corners());
-        let images = self.mesh.mirrors().images();
-        let of_hull = images.iter().fold(0.0, |most: f64, image| {
-            most.max(corners().map(|corner| horizontal(&mirrored(corner, *image))).fold(0.0, f64::max))
-        });
-        let reach = farthest(&mut points.iter()) + of_hull;
-        let draught = points.iter().chain(corners()).fold(0.0, |most: f64, point| most.max(-point.z));
-        let nu = self.wave.frequency.powi(2) / self.wave.gravity;
-        let kernel = WaveKernel::new(nu, self.wave.depth, reach, draught);
+        let sources = self.sources(motions, points)?;
+        let (kernel, images) = (self.kernel_to(points), self.mesh.mirrors().images());
         let levels = LevelImage::of_all_frequencies(self.wave.depth);
         let count = self.mesh.hull_count();
         let by_point: Vec<Vec<C>> = points
@@ -134,6 +114,56 @@ impl WaveSolution {
             })
             .collect();
         Some((0..self.headings.len()).map(|i| by_point.iter().map(|of_point| of_point[i]).collect()).collect())
+    }
+
+    /// Potentials and their derivatives along the normal on the hulls, heading by heading; none where the motions are not those of all headings, or a
+    /// point is not in the water.
+    fn sources(&self, motions: &[Vec<C>], points: &[Vector3<f64>]) -> Option<Vec<(Vec<C>, Vec<C>)>> {
+        let lowest = self.wave.depth.map_or(f64::NEG_INFINITY, |depth| -depth * (1.0 + BOTTOM_ROOM));
+        let is_in_water = |at: &Vector3<f64>| at.iter().all(|x| x.is_finite()) && at.z <= 0.0 && at.z >= lowest;
+        if motions.len() != self.headings.len() || !points.iter().all(is_in_water) {
+            return None;
+        }
+        motions.iter().enumerate().map(|(i, motions)| self.sent_out(i, motions)).collect()
+    }
+
+    /// The Green function between points and the hulls.
+    fn kernel_to(&self, points: &[Vector3<f64>]) -> WaveKernel {
+        let first = points.first().copied().unwrap_or_default();
+        let horizontal = |point: &Vector3<f64>| (point.x - first.x).hypot(point.y - first.y);
+        let farthest = |points: &mut dyn Iterator<Item = &Vector3<f64>>| points.map(horizontal).fold(0.0, f64::max);
+        let corners = || self.mesh.hull().iter().flat_map(|panel| panel.corners());
+        let images = self.mesh.mirrors().images();
+        let of_hull = images.iter().fold(0.0, |most: f64, image| {
+            most.max(corners().map(|corner| horizontal(&mirrored(corner, *image))).fold(0.0, f64::max))
+        });
+        let reach = farthest(&mut points.iter()) + of_hull;
+        let draught = points.iter().chain(corners()).fold(0.0, |most: f64, point| most.max(-point.z));
+        let nu = self.wave.frequency.powi(2) / self.wave.gravity;
+        WaveKernel::new(nu, self.wave.depth, reach, draught)
+    }
+
+    /// The velocities (m/s) at points in the water, below the mean level, as [`WaveSolution::potentials`]: point by point, then heading by heading.
+    pub fn velocities(&self, motions: &[Vec<C>], points: &[Vector3<f64>]) -> Option<Vec<Vec<[C; 3]>>> {
+        let strengths = Strengths::new(&self.sources(motions, points)?);
+        let (kernel, images) = (self.kernel_to(points), self.mesh.mirrors().images());
+        let levels = LevelImage::of_all_frequencies(self.wave.depth);
+        let count = self.mesh.hull_count();
+        let of_point = |room: &mut FlowRoom, point: &Vector3<f64>| {
+            let mut sums = vec![[C::default(); 3]; strengths.headings()];
+            for (image, block) in images.iter().zip((0..).step_by(count)) {
+                let flows = kernel.flows(&mirrored(point, *image), *image, self.mesh.hull(), &levels, room);
+                strengths.add_velocities(flows, block, &mut sums);
+            }
+            for (sum, heading) in sums.iter_mut().zip(&self.headings) {
+                let (_, incident) = self.wave.at(point, *heading);
+                for (value, own) in sum.iter_mut().zip(incident.iter()) {
+                    *value = *value / (4.0 * PI) + own;
+                }
+            }
+            sums
+        };
+        Some(points.par_iter().map_init(FlowRoom::default, of_point).collect())
     }
 
     /// Wave elevations (m/m) at points x, y outside of the hulls, as [`WaveSolution::potentials`].
@@ -183,8 +213,7 @@ impl WaveSolution {
     /// The mean drift of the bodies within a control surface, heading by heading; `motions` are those of all bodies for each heading (m/m,
     /// rad/m). None where the motions are not those of all headings, or the surface is not above the bottom or crosses a hull.
     ///
-    /// The mean momentum through the surface is `-(rho g/2) zeta^2 n` on its waterline and `(rho/2) |grad phi|^2 n - rho u u_n` below, with
-    /// velocities by differences of the potential.
+    /// The mean momentum through the surface is `-(rho g/2) zeta^2 n` on its waterline and `(rho/2) |grad phi|^2 n - rho u u_n` below.
     pub fn control_surface_drift(
         &self,
         motions: &[Vec<C>],
@@ -198,38 +227,25 @@ impl WaveSolution {
         }
         let k = self.wave.wave_number;
         let gap = self.distance_to_hull(surface)?;
-        let step = DIFFERENCE_SHARE * width.min(depth).min(1.0 / k);
         let (waterline, below) = match surface {
             ControlSurface::Cylinder(cylinder) => cylinder.points(k, on_bottom),
             ControlSurface::Box(block) => block.points(k, gap, on_bottom),
         };
-        // around each point: x, y, and z downward, as the surface is above
-        let (along, across, down) =
-            (Vector3::new(step, 0.0, 0.0), Vector3::new(0.0, step, 0.0), Vector3::new(0.0, 0.0, -step));
-        let arms = [along, -along, across, -across, Vector3::zeros(), down, 2.0 * down];
-        let points: Vec<_> = below
-            .iter()
-            .flat_map(|point| arms.map(|arm| point.at + arm))
-            .chain(waterline.iter().map(|point| point.at))
-            .collect();
-        let potentials = self.potentials(motions, &points)?;
+        let at = |points: &[FluxPoint]| points.iter().map(|point| point.at).collect::<Vec<_>>();
+        let at_waterline = self.potentials(motions, &at(&waterline))?;
+        let velocities = self.velocities(motions, &at(&below))?;
         let density = self.water.density;
         let elevation = self.wave.frequency / self.wave.gravity;
-        let mut made = Vec::with_capacity(potentials.len());
-        for potentials in potentials {
+        let mut made = Vec::with_capacity(at_waterline.len());
+        for (heading, at_waterline) in at_waterline.iter().enumerate() {
             let mut drift = ControlSurfaceDrift::default();
             let mut add = |point: &FluxPoint, force: Vector3<f64>| {
                 drift.surge += force.x * point.weight;
                 drift.sway += force.y * point.weight;
                 drift.yaw += ((point.at.x - centre[0]) * force.y - (point.at.y - centre[1]) * force.x) * point.weight;
             };
-            let (fields, at_waterline) = potentials.split_at(below.len() * arms.len());
-            for (point, field) in below.iter().zip(fields.chunks_exact(arms.len())) {
-                let velocity = [
-                    (field[0] - field[1]) / (2.0 * step),
-                    (field[2] - field[3]) / (2.0 * step),
-                    (field[4] * 3.0 - field[5] * 4.0 + field[6]) / (2.0 * step),
-                ];
+            for (point, velocities) in below.iter().zip(&velocities) {
+                let velocity = velocities[heading];
                 let through: C = velocity.iter().zip(point.outward.iter()).map(|(v, n)| v * *n).sum();
                 let square: f64 = velocity.iter().map(|v| v.norm_sqr()).sum();
                 let flux = Vector3::from(velocity.map(|v| (v * through.conj()).re));

@@ -37,6 +37,7 @@ mod gauss;
 mod gmres;
 pub mod green;
 mod incident_wave;
+mod influence;
 mod lid;
 mod mesh;
 mod panel;

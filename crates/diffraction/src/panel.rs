@@ -87,6 +87,30 @@ impl Panel {
         [potential, angle]
     }
 
+    /// The gradients of both of [`Panel::rankine`] by the position of the point (without unit, 1/m), which is not on an edge of the panel.
+    pub fn rankine_gradients(&self, from: &Vector3<f64>) -> [Vector3<f64>; 2] {
+        let arm = from - self.centroid;
+        let distance2 = arm.norm_squared();
+        if distance2 > (FAR_DIAGONALS * self.diagonal).powi(2) {
+            return self.far_rankine_gradients(&arm, distance2);
+        }
+        let triangles = triangles(&self.corners).map(|triangle| triangle_rankine_gradients(&triangle, from));
+        [triangles[0][0] + triangles[1][0], triangles[0][1] + triangles[1][1]]
+    }
+
+    fn far_rankine_gradients(&self, arm: &Vector3<f64>, distance2: f64) -> [Vector3<f64>; 2] {
+        let height = arm.dot(&self.normal);
+        let over2 = 1.0 / distance2;
+        let over3 = over2 * over2.sqrt();
+        let turned = self.second_moments * arm;
+        let (trace, along) = (self.second_moments.trace(), arm.dot(&turned) * over2);
+        let potential = (turned * (3.0 * over2) - arm * (self.area + over2 * (7.5 * along - 1.5 * trace))) * over3;
+        let share = self.area + over2 * (7.5 * along - 1.5 * trace);
+        let fall = arm * (3.0 * self.area + over2 * (52.5 * along - 7.5 * trace));
+        let angle = self.normal * (share * over3) + (turned * 15.0 * over2 - fall) * (height * over2 * over3);
+        [potential, angle]
+    }
+
     /// The same by the first terms of the expansion about the centroid.
     fn far_rankine(&self, arm: &Vector3<f64>, distance2: f64) -> [f64; 2] {
         let height = arm.dot(&self.normal);
@@ -158,6 +182,31 @@ fn triangle_rankine(corners: &[Vector3<f64>; 3], from: &Vector3<f64>) -> [f64; 2
     [potential, angle]
 }
 
+/// As [`Panel::rankine_gradients`], of a triangle: that of the solid angle is the field of a current round it.
+fn triangle_rankine_gradients(corners: &[Vector3<f64>; 3], from: &Vector3<f64>) -> [Vector3<f64>; 2] {
+    let arms = corners.map(|corner| corner - from);
+    let distances = arms.map(|arm| arm.norm());
+    let cross = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
+    let Some(normal) = cross.try_normalize(0.0) else { return [Vector3::zeros(); 2] };
+    let [_, angle] = triangle_rankine(corners, from);
+    let (mut potential, mut by_angle) = (normal * -angle, Vector3::zeros());
+    for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+        let side = corners[j] - corners[i];
+        let length = side.norm();
+        let sum = distances[i] + distances[j];
+        if length == 0.0 || sum <= length {
+            continue;
+        }
+        potential += normal.cross(&side) * (((sum + length) / (sum - length)).ln() / length);
+        let product = distances[i] * distances[j];
+        let below = product * (product + arms[i].dot(&arms[j]));
+        if below > 0.0 {
+            by_angle -= arms[i].cross(&arms[j]) * (sum / below);
+        }
+    }
+    [potential, by_angle]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,6 +247,31 @@ mod tests {
         let [_, above] = square().rankine(&Vector3::new(0.0, 0.0, 0.5));
         let [_, below] = square().rankine(&Vector3::new(0.0, 0.0, -0.5));
         assert!((above - 2.0 * PI / 3.0).abs() < 1e-14 && (below + 2.0 * PI / 3.0).abs() < 1e-14, "{above} {below}");
+    }
+
+    #[test]
+    fn gradients_above_middle_of_unit_square_are_closed_form() {
+        // solid angle 4 asin(q/(q + h2)), q = 1/4 = (a/2)2: its slope along the axis; the pull of the square is the angle
+        let h = 0.3_f64;
+        let [pull, slope] = square().rankine_gradients(&Vector3::new(0.0, 0.0, h));
+        let (q, h2) = (0.25, h * h);
+        let angle = 4.0 * (q / (q + h2)).asin();
+        let exact = -8.0 * q * h / ((q + h2) * (h2 * (2.0 * q + h2)).sqrt());
+        assert!((pull.z + angle).abs() < 1e-13 && (slope.z - exact).abs() < 1e-12, "{pull} {slope} {angle} {exact}");
+        assert!(pull.xy().norm() < 1e-14 && slope.xy().norm() < 1e-14);
+    }
+
+    #[test]
+    fn gradients_far_away_meet_exact_ones() {
+        let panel = square();
+        let from = Vector3::new(4.0, 1.0, 3.5);
+        let far = panel.far_rankine_gradients(&(from - panel.centroid), (from - panel.centroid).norm_squared());
+        let near = triangles(panel.corners()).map(|triangle| triangle_rankine_gradients(&triangle, &from));
+        for (which, scale) in [(0, 1.0), (1, 0.2)] {
+            let off = (far[which] - near[0][which] - near[1][which]).norm();
+            // fourth moments, as of the expansion itself
+            assert!(off < 5e-4 * scale / 28.0, "{which}: {off}");
+        }
     }
 
     #[test]

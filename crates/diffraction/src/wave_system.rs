@@ -75,6 +75,28 @@ impl WaveKernel {
         self.bottom.as_ref().map_or(self.nu, FiniteDepthTable::amplitude)
     }
 
+    /// omega2/g (1/m).
+    pub fn nu(&self) -> f64 {
+        self.nu
+    }
+
+    /// The tables of deep water.
+    pub fn deep(&self) -> &'static WavePartTable {
+        self.deep
+    }
+
+    /// What the bottom adds.
+    pub fn bottom(&self) -> Option<&FiniteDepthTable> {
+        self.bottom.as_ref()
+    }
+
+    /// Whether a point is so near the image of a panel that its wave part is taken at four points.
+    pub fn is_near(&self, from: &Vector3<f64>, panel: &Panel) -> bool {
+        let arm = panel.centroid - from;
+        let above = panel.centroid.z + from.z;
+        arm.x * arm.x + arm.y * arm.y + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2)
+    }
+
     fn part(&self, distance: f64, heights: [f64; 2]) -> FrequencyPart {
         match &self.bottom {
             None => FrequencyPart::in_deep_water(self.deep, self.nu, distance, heights),
@@ -99,8 +121,8 @@ impl WaveKernel {
             (arm.x * arm.x + arm.y * arm.y).sqrt()
         };
         let of = |(index, panel): (usize, &Panel)| {
-            let (distance, above) = (distance(panel), panel.centroid.z + from.z);
-            if distance * distance + above * above < (NEAR_DIAGONALS * panel.diagonal).powi(2) {
+            let distance = distance(panel);
+            if self.is_near(from, panel) {
                 return self.over_points(from, panel);
             }
             let part = WavePart {

@@ -82,6 +82,48 @@ pub struct FrequencyPart {
     pub by_heights: [C; 2],
 }
 
+/// Derivatives of the part of the Green function that depends on the frequency, up to those that velocities by sources and dipoles take.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FrequencySlopes {
+    /// By the horizontal distance (1/m2).
+    pub by_distance: C,
+    /// By the heights of the point and of the source (1/m2).
+    pub by_heights: [C; 2],
+    /// Twice by the horizontal distance (1/m3).
+    pub by_distance_twice: C,
+    /// By the horizontal distance, over that (1/m3).
+    pub over_distance: C,
+    /// By the horizontal distance, and the height of the point or of the source (1/m3).
+    pub by_distance_and_heights: [C; 2],
+    /// By both heights (1/m3).
+    pub by_both_heights: C,
+}
+
+/// Above the source, within this share of the height, the derivative over the distance is the second derivative: to the square of it.
+const AXIS_SHARE: f64 = 0.01;
+
+impl FrequencySlopes {
+    /// Those of deep water from the wave part at X and Y, by the equation of Laplace and `dW/dY = -(W + 2/d)`.
+    pub fn from_wave_part(found: WavePart, nu: f64, [x, y]: [f64; 2]) -> Self {
+        let over = 1.0 / (x * x + y * y).sqrt();
+        let cube = over * over * over;
+        let square = nu * nu;
+        let by_y = -(found.value + 2.0 * over);
+        let twice_by_y = 2.0 * y * cube - by_y;
+        let over_x = if x <= AXIS_SHARE * y { -0.5 * twice_by_y } else { found.by_x / x };
+        let by_height = -by_y * square;
+        let mixed = (found.by_x - 2.0 * x * cube) * (square * nu);
+        FrequencySlopes {
+            by_distance: found.by_x * square,
+            by_heights: [by_height; 2],
+            by_distance_twice: -(over_x + twice_by_y) * (square * nu),
+            over_distance: over_x * (square * nu),
+            by_distance_and_heights: [mixed; 2],
+            by_both_heights: twice_by_y * (square * nu),
+        }
+    }
+}
+
 impl FrequencyPart {
     /// That of deep water: `nu W`.
     pub fn in_deep_water(table: &WavePartTable, nu: f64, distance: f64, heights: [f64; 2]) -> Self {
@@ -160,6 +202,83 @@ impl FiniteDepthTable {
                 C::new(found.by_heights[1].re + sum[2] - by_rise, wave * own * other_slope * j0),
             ],
         }
+    }
+
+    /// The derivatives in water of finite depth from those of deep water.
+    pub fn correct_slopes(&self, found: FrequencySlopes, distance: f64, heights: [f64; 2]) -> FrequencySlopes {
+        if distance > FAR_DISTANCE * self.depth {
+            return self.far_slopes(distance, heights);
+        }
+        let [z, source] = heights;
+        let patch = ((distance / self.step) as usize).min(self.sum_part.len() - 1);
+        let rise = z - source;
+        let mut made = found;
+        // of the heights of the point and of the source: how they change V and V'
+        let parts = [
+            (&self.sum_part[patch], z + source + 2.0 * self.depth, [1.0, 1.0]),
+            (&self.difference_part[patch], rise.abs(), [rise.signum(), -rise.signum()]),
+        ];
+        for (part, height, signs) in parts {
+            let [values, by_first, by_second] = part.evaluate_with_slopes(distance, height);
+            let (slope, twice, mixed) = (values[1], by_first[1], by_second[1]);
+            let over = if distance <= AXIS_SHARE * self.step { twice } else { slope / distance };
+            made.by_distance.re += slope;
+            made.by_distance_twice.re += twice;
+            made.over_distance.re += over;
+            for (which, sign) in signs.into_iter().enumerate() {
+                made.by_heights[which].re += sign * values[2];
+                made.by_distance_and_heights[which].re += sign * mixed;
+            }
+            made.by_both_heights.re -= signs[0] * signs[1] * (twice + over);
+        }
+        let k = self.wave_number;
+        let [(own, own_slope), (other, other_slope)] = heights.map(|height| self.profile(height));
+        let wave = 2.0 * PI * self.amplitude;
+        let kr = k * distance;
+        let (j0, j1) = (libm::j0(kr), libm::j1(kr));
+        // J1(x)/x without rounding on the axis
+        let over = if kr < 1e-4 { 0.5 } else { j1 / kr };
+        made.by_distance.im = -wave * own * other * k * j1;
+        made.by_heights[0].im = wave * own_slope * other * j0;
+        made.by_heights[1].im = wave * own * other_slope * j0;
+        made.by_distance_twice.im = -wave * own * other * k * k * (j0 - over);
+        made.over_distance.im = -wave * own * other * k * k * over;
+        made.by_distance_and_heights[0].im = -wave * own_slope * other * k * j1;
+        made.by_distance_and_heights[1].im = -wave * own * other_slope * k * j1;
+        made.by_both_heights.im = wave * own_slope * other_slope * j0;
+        made
+    }
+
+    /// As [`FiniteDepthTable::far_part`].
+    fn far_slopes(&self, distance: f64, heights: [f64; 2]) -> FrequencySlopes {
+        let k = self.wave_number;
+        let [(own, own_slope), (other, other_slope)] = heights.map(|height| self.profile(height));
+        let wave = 2.0 * PI * self.amplitude;
+        let hankel = C::new(-libm::y0(k * distance), libm::j0(k * distance)) * wave;
+        let slope = C::new(libm::y1(k * distance), -libm::j1(k * distance)) * (wave * k);
+        let over = slope / distance;
+        let mut made = FrequencySlopes {
+            by_distance: slope * (own * other),
+            by_heights: [hankel * (own_slope * other), hankel * (own * other_slope)],
+            by_distance_twice: -(hankel * (k * k) + over) * (own * other),
+            over_distance: over * (own * other),
+            by_distance_and_heights: [slope * (own_slope * other), slope * (own * other_slope)],
+            by_both_heights: hankel * (own_slope * other_slope),
+        };
+        let [z, source] = heights;
+        for (rise, with_source) in [(z - source, -1.0), (z + source, 1.0), (z + source + 2.0 * self.depth, 1.0)] {
+            let over = 1.0 / distance.hypot(rise);
+            let (cube, fifth) = (over.powi(3), 3.0 * over.powi(5));
+            made.by_distance.re += distance * cube;
+            made.by_distance_twice.re += cube - distance * distance * fifth;
+            made.over_distance.re += cube;
+            for (which, sign) in [1.0, with_source].into_iter().enumerate() {
+                made.by_heights[which].re += sign * rise * cube;
+                made.by_distance_and_heights[which].re -= sign * distance * rise * fifth;
+            }
+            made.by_both_heights.re += with_source * (cube - rise * rise * fifth);
+        }
+        made
     }
 
     /// `cosh k(z + h)/cosh k h` and its derivative by z (1/m).

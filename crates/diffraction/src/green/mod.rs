@@ -15,6 +15,6 @@ mod quadrature;
 mod special;
 mod wave_part;
 
-pub use finite_depth::{FiniteDepthTable, FrequencyPart};
+pub use finite_depth::{FiniteDepthTable, FrequencyPart, FrequencySlopes};
 pub use quadrature::integrate_wave_part;
 pub use wave_part::{WavePart, WavePartBatch, WavePartTable};

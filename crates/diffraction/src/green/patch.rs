@@ -109,6 +109,28 @@ impl<const F: usize> Patch<F> {
 }
 
 impl<const F: usize> Patch<F> {
+    /// The functions at a point, and their derivatives by the first and by the second variable.
+    pub fn evaluate_with_slopes(&self, first: f64, second: f64) -> [[f64; F]; 3] {
+        let s = (first - self.middle[0]) * self.over_half[0];
+        let t = (second - self.middle[1]) * self.over_half[1];
+        let [mut sum, mut by_first, mut by_second] = [[0.0; F]; 3];
+        for (row, length) in self.terms.iter().zip(self.lengths).rev() {
+            let [mut inner, mut slope] = [[0.0; F]; 2];
+            for term in row[..length].iter().rev() {
+                for which in 0..F {
+                    slope[which] = slope[which] * t + inner[which];
+                    inner[which] = inner[which] * t + term[which];
+                }
+            }
+            for which in 0..F {
+                by_first[which] = by_first[which] * s + sum[which];
+                sum[which] = sum[which] * s + inner[which];
+                by_second[which] = by_second[which] * s + slope[which];
+            }
+        }
+        [sum, by_first.map(|v| v * self.over_half[0]), by_second.map(|v| v * self.over_half[1])]
+    }
+
     /// The functions at several points; each product and its sum are rounded once.
     #[inline(always)]
     pub fn evaluate_lanes(&self, first: &[f64; LANES], second: &[f64; LANES]) -> [[f64; LANES]; F] {
