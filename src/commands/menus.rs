@@ -17,7 +17,7 @@ use windlass_language::record::Word;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, MenuSpec, Opens, OptionSpec, ValueSpec};
 use windlass_language::token::TokenKind as Lex;
-use windlass_moordyn::records::LineModel;
+use windlass_moordyn::records::{Like, LineModel};
 use windlass_orcaflex::records as orcaflex;
 
 /// INMODEL.
@@ -53,10 +53,18 @@ const STATIC: OptionSpec =
         .default("as dynamic lines of the segments given")
         .owner(Owner::Ours);
 
+const LIKE: OptionSpec = OptionSpec::new(
+    "-LIKE",
+    &[ValueSpec::choice::<Like>("WHOM", "MOORDYN: the answers of MoorDyn 2.7.2").or("RIGHT")],
+    "whose answer is taken where MoorDyn and the right one part",
+)
+.default("RIGHT")
+.owner(Owner::Ours);
+
 static INMODEL_SPEC: CommandSpec = CommandSpec {
     opens: Opens::UnlessFile(&menu::INMODEL),
     menus: &[&menu::MAIN],
-    options: &[AQWA, MOORDYN, ORCAFLEX, STATIC],
+    options: &[AQWA, MOORDYN, ORCAFLEX, STATIC, LIKE],
     detail: "Reads model descriptions from ROOT.DAT, or from the file of &DEVICE -AUXIN; without either the records follow \
              up to END. A CONNECTOR may name classes and points that are defined later. -AQWA reads decks 1 to 17 of a deck of \
              AQWA cards instead: its structures become bodies S1, S2 .. with their centers of gravity as origins, its nodes points *S1_1010 or, in \
@@ -65,7 +73,7 @@ static INMODEL_SPEC: CommandSpec = CommandSpec {
              2 or 1, of MoorPy, or a file of MAP++: fixed points become points *P1 .. of the ground, coupled ones points of a body VESSEL, free ones junctions P3 .., \
              bodies BODY1 .., rods bodies ROD1 .. of one TUBE or parts of their body, lines connectors L1 .. that begin at the fairlead (MoorDyn's end B), and depth, density and g defaults and the environment \
              in force, with the currents, waves and seafloor of the files beside the deck. A file of MAP++ has the water in force, and static lines alone. What is coupled stands still until PRESCRIBE moves it; \
-             a body VESSEL that the model has takes the coupled points, and moves as it did. A line is a dynamic one of class ROD with NumSegs elements; with \
+             a body VESSEL that the model has takes the coupled points, and moves as it did. With -LIKE MOORDYN bodies have their buoyancy at the center of gravity and lose the first one of three or six drag areas, as in MoorDyn 2.7.2. A line is a dynamic one of class ROD with NumSegs elements; with \
              -STATIC it is a B_CAT to an anchor on the seabed, else an H_CAT. -ORCAFLEX reads General, Environment, LineTypes, Vessels and Lines of an OrcaFlex text model: vessels \
              become bodies that stand still until PRESCRIBE moves them, lines connectors of their names with their ends *L1A, *L1B ... A load that is not read is an error at its word.",
     example: "INMODEL\n&DESCRIBE BODY TBRG\nCONNECTOR A ~W *P\n*P 0 0 0\n~W B_CAT 4 -LEN 500\nEND",
@@ -133,11 +141,15 @@ fn model_file(job: &Job) -> Option<PathBuf> {
 fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let is_static = call.args.has(&STATIC);
     let lines = if is_static { LineModel::Static } else { LineModel::Dynamic };
+    let like =
+        call.args.option(&LIKE).and_then(|given| given.choice(const { LIKE.choice("WHOM") })).unwrap_or(Like::Right);
     let orcaflex = if is_static { orcaflex::LineModel::Static } else { orcaflex::LineModel::Dynamic };
     let mut decks: Vec<Effect> = Vec::new();
-    for (option, format) in
-        [(&AQWA, DeckFormat::Aqwa), (&MOORDYN, DeckFormat::MoorDyn(lines)), (&ORCAFLEX, DeckFormat::OrcaFlex(orcaflex))]
-    {
+    for (option, format) in [
+        (&AQWA, DeckFormat::Aqwa),
+        (&MOORDYN, DeckFormat::MoorDyn(lines, like)),
+        (&ORCAFLEX, DeckFormat::OrcaFlex(orcaflex)),
+    ] {
         let Some(value) = call.args.option(option).and_then(|given| given.values.first()) else { continue };
         if !decks.is_empty() {
             return Err(
@@ -146,6 +158,10 @@ fn inmodel(job: &mut Job, call: &Call) -> Outcome<Effect> {
         }
         let name = value.word().unwrap_or_default();
         decks.push(Effect::Deck { name: name.to_string(), path: existing(job, name, value.span)?, format });
+    }
+    if let (Some(given), false) = (call.args.option(&LIKE), call.args.has(&MOORDYN)) {
+        let error = Diagnostic::error("-LIKE says whose answers a MoorDyn deck is read for", given.span);
+        return Err(error.help("write INMODEL -MOORDYN FILE -LIKE MOORDYN"));
     }
     if is_static && ![&MOORDYN, &ORCAFLEX].into_iter().any(|option| call.args.has(option)) {
         let error = Diagnostic::error(

@@ -65,7 +65,7 @@ use windlass_base::values::Args;
 use windlass_language::record::{Record, Word};
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, MenuSpec};
-use windlass_moordyn::records::LineModel;
+use windlass_moordyn::records::{Like, LineModel};
 use windlass_orcaflex::records as orcaflex;
 
 /// A record on its way to a handler.
@@ -125,8 +125,8 @@ pub const PLAIN: u32 = 0;
 pub enum DeckFormat {
     /// AQWA's card images.
     Aqwa,
-    /// MoorDyn's tables, with how their lines are read.
-    MoorDyn(LineModel),
+    /// MoorDyn's tables, with how their lines are read and whose answer is taken where MoorDyn's is another.
+    MoorDyn(LineModel, Like),
     /// OrcaFlex's text models, with how their lines are read.
     OrcaFlex(orcaflex::LineModel),
 }

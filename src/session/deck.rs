@@ -18,7 +18,7 @@ use windlass_hydro::sea::Sea;
 use windlass_language::source::Text;
 use windlass_model::Model;
 use windlass_moordyn::files::FileText;
-use windlass_moordyn::records::{CallerWater, LineModel, Settings, VESSEL};
+use windlass_moordyn::records::{CallerWater, Like, LineModel, Settings, VESSEL};
 use windlass_orcaflex as orcaflex;
 
 /// Records made of a deck, with the cards or rows they are made of.
@@ -98,7 +98,13 @@ impl Session {
     }
 
     /// Reads the model of a MoorDyn deck next.
-    pub(super) fn insert_moordyn(&mut self, (name, path): (&str, &Path), text: Text, lines: LineModel, span: Span) {
+    pub(super) fn insert_moordyn(
+        &mut self,
+        (name, path): (&str, &Path),
+        text: Text,
+        (lines, like): (LineModel, Like),
+        span: Span,
+    ) {
         let id = self.interpreter.sources.add(name, text.clone(), 1);
         self.source_files.push((id, path.to_path_buf()));
         let reading = windlass_moordyn::read(text.as_str(), id);
@@ -113,7 +119,7 @@ impl Session {
         let around = self.job.model.surroundings();
         let water = CallerWater { depth: around.depth, density: around.water_density, gravity: around.gravity };
         let has_vessel = self.job.model.bodies.contains_key(VESSEL);
-        let settings = Settings { lines, water, has_vessel, files: &files };
+        let settings = Settings { lines, like, water, has_vessel, files: &files };
         match windlass_moordyn::records::records(&reading.deck, &settings) {
             Ok(records) => {
                 let origins = records.origins.iter().map(|(at, origin)| (*at, origin.row.as_str(), origin.span));

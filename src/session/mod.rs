@@ -385,8 +385,8 @@ impl Session {
                 self.job.output.folder.note_reading(&path);
                 match (self.unsaved.read(&path), format) {
                     (Ok(text), DeckFormat::Aqwa) => self.insert_deck(&name, &path, text, record.whole()),
-                    (Ok(text), DeckFormat::MoorDyn(lines)) => {
-                        self.insert_moordyn((&name, &path), text, lines, record.whole());
+                    (Ok(text), DeckFormat::MoorDyn(lines, like)) => {
+                        self.insert_moordyn((&name, &path), text, (lines, like), record.whole());
                     }
                     (Ok(text), DeckFormat::OrcaFlex(lines)) => {
                         self.insert_orcaflex((&name, &path), text, lines, record.whole());

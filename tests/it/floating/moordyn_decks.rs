@@ -163,12 +163,17 @@ fn deck_errors_are_at_their_words() {
 }
 
 #[test]
-fn static_without_a_moordyn_deck_is_refused() {
-    let (mut session, _screen, _folder) = common::session();
-    session.open("records", "INMODEL -STATIC\n");
-    session.run();
-    assert_eq!(session.errors, 1, "{:?}", session.reports);
-    assert!(session.reports[0].message.contains("how the lines of a MoorDyn deck are read"));
+fn static_and_like_without_a_moordyn_deck_are_refused() {
+    for (option, message) in [
+        ("-STATIC", "how the lines of a MoorDyn deck are read"),
+        ("-LIKE MOORDYN", "whose answers a MoorDyn deck is read for"),
+    ] {
+        let (mut session, _screen, _folder) = common::session();
+        session.open("records", format!("INMODEL {option}\n"));
+        session.run();
+        assert_eq!(session.errors, 1, "{:?}", session.reports);
+        assert!(session.reports[0].message.contains(message), "{:?}", session.reports);
+    }
 }
 
 /// A deck whose body VESSEL is moved by `sinusoid` over a `window` of time.
@@ -256,7 +261,48 @@ fn body_on_driven_lines_pulls_as_in_moordyn() {
         window: "120 0.1",
         from: 90.0,
     };
-    compare_with_moordyn(&drive, &[("force", ("CONFORCE L4", "Mag."))]);
+    compare_with_moordyn(&drive, &BODY);
+}
+
+/// Columns of the driven body.
+const BODY: [(&str, (&str, &str)); 3] =
+    [("force", ("CONFORCE L4", "Mag.")), ("x", ("TRAJECTORY BODY1", "X")), ("pitch", ("TRAJECTORY BODY1", "Pitch"))];
+
+#[test]
+fn body_read_like_moordyn_has_its_buoyancy_and_drag_areas() {
+    let drive = Drive {
+        deck: "driven/body_like",
+        options: "-LIKE MOORDYN",
+        sinusoid: "X 1.5 10 -SINUSOID Z 1 10",
+        window: "120 0.1",
+        from: 90.0,
+    };
+    compare_with_moordyn(&drive, &BODY);
+}
+
+#[test]
+fn body_of_a_deck_rests_by_the_moments_of_the_place_of_its_buoyancy() {
+    for options in ["", "-LIKE MOORDYN"] {
+        let folder = tempfile::tempdir().unwrap();
+        let deck = "- LINE\n--- LINE TYPES ---\na\nb\nrope 0.05 3 1e6 1e3 0 0 0 0 0\n--- BODIES ---\na\nb\n\
+                    1 Free 0 0 -40 0 0 0 2e4 0.3|0|-1.2 9e4|9e4|6e4 10 4 0\n--- POINTS ---\na\nb\n1 Fixed 0 0 -5 0 0 0 0\n\
+                    2 Body1 0 0 1 0 0 0 0\n--- LINES ---\na\nb\n1 rope 2 1 34 4 -\n--- OPTIONS ---\n100 WtrDpth\n9.80665 g\n---\n";
+        std::fs::write(folder.path().join("deck.txt"), deck).unwrap();
+        let (mut session, _screen, _folder) = common::session();
+        let record = format!("INMODEL -MOORDYN \"{}/deck.txt\" {options}\n&EQUI\n", folder.path().display());
+        session.open("records", record);
+        session.run();
+        assert_eq!(session.errors, 0, "{:?}", session.reports);
+        let [_, pitch, _] = session.job.model.bodies["BODY1"].position.turn;
+        // moments about the point of the rope 1 m above: weight at (0.3, -2.2), lift at (0, -1) or there too
+        let (weight, lift) = (2e4, 1025.0 * 10.0);
+        let [x, z]: [f64; 2] = if options.is_empty() {
+            [weight * 0.3, weight * 2.2 - lift]
+        } else {
+            [(weight - lift) * 0.3, (weight - lift) * 2.2]
+        };
+        assert!((pitch - (x / z).atan()).abs() < 1e-3_f64.to_radians(), "{options}: {}", pitch.to_degrees());
+    }
 }
 
 #[test]

@@ -1,10 +1,9 @@
 //! Points, bodies and rods of a deck.
 
-use super::{Held, Holder, Writer, number, numbers, rounded};
+use super::{Held, Holder, Like, Writer, number, numbers, rounded};
 use crate::Given;
 use crate::tables::{Attachment, Body, Height, LineEnd, Point, Rod, RodType};
 use std::f64::consts::PI;
-use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
 /// The pin that holds no twist, among those by their axes.
@@ -350,20 +349,64 @@ impl Writer<'_> {
             let record = format!("#WEIGHT *B{id}CG {} {}", number(self.weight(mass)), numbers(&radii));
             self.record(&row, body.mass.span, &record);
         }
-        let water = InWater {
-            volume: body.volume.value,
-            areas: drag_areas(&body.drag_area.value),
-            added: three(&body.added_mass.value),
-        };
+        let areas = self.drag_areas_of_body(body);
+        let water = InWater { volume: body.volume.value, areas, added: three(&body.added_mass.value) };
         if let Some(record) = water.record(&format!("*B{id}")) {
             self.record(&row, span, &record);
         }
         if body.volume.value > 0.0 && centre != [0.0; 3] {
-            let text = format!(
-                "the buoyancy of body {id} acts at its reference point; MoorDyn puts it at the centre of gravity, where a body has no righting moment"
-            );
-            self.out.notes.push(*Diagnostic::remark(text, body.centre.span));
+            self.lift_of_body(body, centre);
         }
+    }
+
+    /// Where the buoyancy of a body acts whose centre of gravity is not its reference point.
+    fn lift_of_body(&mut self, body: &Body, centre: [f64; 3]) {
+        let id = body.id.value;
+        if self.like == Like::Right {
+            let text = format!(
+                "the buoyancy of body {id} acts at its reference point; MoorDyn puts it at the centre of gravity, where a body has no righting moment: so does -LIKE MOORDYN"
+            );
+            self.remark(body.centre.span, text);
+            return;
+        }
+        // a pair of forces moves the lift of #LUMP, whose added mass stays where it is
+        let lift = rounded(self.density() * self.gravity() * body.volume.value);
+        let row = format!("BODIES {id}");
+        let span = body.centre.span;
+        self.force(&row, span, &format!("*B{id}"), [0.0, 0.0, -lift]);
+        if body.mass.value == 0.0 {
+            self.record(&row, span, &format!("*B{id}CG {}", numbers(&centre)));
+        }
+        self.force(&row, span, &format!("*B{id}CG"), [0.0, 0.0, lift]);
+        self.remark(span, format!("the buoyancy of body {id} acts at its centre of gravity, as in MoorDyn: a body has no righting moment there"));
+    }
+
+    /// Drag areas of a body along and about its axes.
+    fn drag_areas_of_body(&mut self, body: &Body) -> [[f64; 3]; 2] {
+        let given = &body.drag_area;
+        let [mut along, mut about] = drag_areas(&given.value);
+        let is_lost =
+            matches!(given.value.len(), 3 | 6) && (along[0] > 0.0 || (given.value.len() == 3 && about[0] > 0.0));
+        if !is_lost {
+            return [along, about];
+        }
+        let id = body.id.value;
+        match self.like {
+            Like::Right => {
+                let text = format!(
+                    "the first drag area of body {id} acts; MoorDyn 2.7.2 loses it where three or six are given: so does -LIKE MOORDYN"
+                );
+                self.remark(given.span, text);
+            }
+            Like::MoorDyn => {
+                along[0] = 0.0;
+                if given.value.len() == 3 {
+                    about[0] = 0.0;
+                }
+                self.remark(given.span, format!("the first drag area of body {id} is lost, as MoorDyn 2.7.2 loses it where three or six are given"));
+            }
+        }
+        [along, about]
     }
 
     /// Rods that are bodies of their own.

@@ -15,6 +15,7 @@ use crate::options::Options;
 use crate::tables::{Attachment, Height, Point};
 use crate::write::number;
 use std::collections::BTreeMap;
+use windlass_base::choices;
 use windlass_base::diagnostic::Diagnostic;
 use windlass_base::span::Span;
 
@@ -36,6 +37,16 @@ pub enum LineModel {
     Static,
 }
 
+choices! {
+    /// Whose answer is taken where MoorDyn 2.7.2 [MOORDYN-2] and the right one part.
+    pub enum Like {
+        /// The right one.
+        Right = "RIGHT",
+        /// MoorDyn's: buoyancy of bodies at their centre of gravity, and no first one of three or six drag areas.
+        MoorDyn = "MOORDYN",
+    }
+}
+
 /// The water of a program that reads a file of MAP++, which does not say it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CallerWater {
@@ -52,6 +63,8 @@ pub struct CallerWater {
 pub struct Settings<'a> {
     /// How lines are read.
     pub lines: LineModel,
+    /// Whose answer is taken where MoorDyn's is another.
+    pub like: Like,
     /// The water where the deck is a file of MAP++.
     pub water: CallerWater,
     /// Whether the model has a body VESSEL: what is coupled is then on it, and its motion is left as it is.
@@ -90,6 +103,7 @@ pub fn records(deck: &Deck, settings: &Settings<'_>) -> Result<Records, Vec<Diag
     let mut writer = Writer {
         deck,
         model: if deck.map.is_some() { LineModel::Static } else { settings.lines },
+        like: settings.like,
         caller: settings.water,
         files: settings.files,
         out: Records::default(),
@@ -134,6 +148,7 @@ struct Held {
 struct Writer<'a> {
     deck: &'a Deck,
     model: LineModel,
+    like: Like,
     caller: CallerWater,
     files: &'a BTreeMap<String, FileText<String>>,
     out: Records,
@@ -309,6 +324,10 @@ impl Writer<'_> {
 
     fn notes(&mut self, whole: Span) {
         let options = &self.deck.options;
+        if self.like == Like::MoorDyn {
+            let text = "-LIKE MOORDYN takes two of MoorDyn's answers: bodies have their buoyancy at the centre of gravity, and lose the first one of three or six drag areas";
+            self.remark(whole, format!("{text}. Right are still: friction, the push of the bottom, pins that accelerate, waves at bodies and points, forces at ends of lines"));
+        }
         let friction = options.friction.as_ref().filter(|given| given.value > 0.0);
         if let (Some(given), LineModel::Dynamic) = (friction, self.model) {
             self.remark(given.span, "friction is Coulomb's: FricDamp and StatDynFricScale, by which MoorDyn builds it up with speed, are not used");
