@@ -416,10 +416,11 @@ fn line_type(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<LineType> 
 fn vessel(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<Vessel> {
     let name = name(data, "a vessel")?;
     let position = data.numbers("InitialPosition", [0.0; 3])?;
-    let [heel, trim] =
-        [data.number("InitialHeel")?, data.number("InitialTrim")?].map(|given| given.map_or(0.0, |g| g.value));
-    let heading = data.number("InitialHeading")?.map_or(0.0, |given| given.value);
-    let orientation = data.numbers("Orientation", [heel, trim, heading])?;
+    // names of other versions, of which no file can be cited: a turn must not be lost
+    for other in ["InitialHeel", "InitialTrim", "InitialHeading"] {
+        data.zero(other, "a vessel is turned by Orientation")?;
+    }
+    let orientation = data.numbers("Orientation", [0.0; 3])?;
     if orientation.iter().filter(|angle| **angle != 0.0).count() > 1 {
         return Err(Diagnostic::error(format!("vessel {} is turned about more than one axis", name.value), name.span));
     }
@@ -496,7 +497,7 @@ fn holder(word: &str) -> Holder {
     }
 }
 
-/// Both ends: the rows of the table Connection .., or EndAConnection, EndAX ..
+/// Both ends: the rows of the table Connection, ConnectionX ..
 fn connections(data: &mut Data<'_>, name: &Given<String>) -> Outcome<[LineEnd; 2]> {
     if let Some(rows) = data.table("Connection")? {
         let [a, b] = rows.rows.as_slice() else {
@@ -514,21 +515,8 @@ fn connections(data: &mut Data<'_>, name: &Given<String>) -> Outcome<[LineEnd; 2
         };
         return Ok([end(a)?, end(b)?]);
     }
-    let mut end = |letter: char| -> Outcome<LineEnd> {
-        let key = format!("End{letter}Connection");
-        let word = data.word(&key)?.ok_or_else(|| {
-            Diagnostic::error(format!("line {} has no {key}", name.value), name.span)
-                .label("expected Connection, ConnectionX ..")
-        })?;
-        let mut at = [0.0; 3];
-        for (value, axis) in at.iter_mut().zip(['X', 'Y', 'Z']) {
-            let key = format!("End{letter}{axis}");
-            let lacks = || Diagnostic::error(format!("line {} has no {key}", name.value), name.span);
-            *value = data.number(&key)?.ok_or_else(lacks)?.value;
-        }
-        Ok(LineEnd { holder: Given { value: holder(word.value), span: word.span }, at })
-    };
-    Ok([end('A')?, end('B')?])
+    let error = Diagnostic::error(format!("line {} has no Connection", name.value), name.span);
+    Err(error.label("expected the table Connection, ConnectionX, ConnectionY, ConnectionZ"))
 }
 
 fn names_once<'a>(list: impl Iterator<Item = &'a Given<String>>, what: &str, messages: &mut Vec<Diagnostic>) {

@@ -131,6 +131,23 @@ fn water_of_a_written_deck_is_that_of_the_model() {
 }
 
 #[test]
+fn drag_areas_of_a_written_body_are_those_that_moordyn_keeps() {
+    // MoorDyn 2.7.2 loses the first one of six, as its run of driven/body_like.txt shows; of two it keeps both
+    for (areas, want, is_lost) in [("60 60 60 -R_DRAG 900 900 900", "60|900", false), ("8 8 12", "8|8|12|0|0|0", true)]
+    {
+        let (files, said) = written(&format!(
+            "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 80\nMEDIT\n*A 90 0 -80\n&DESCRIBE BODY B\n&INSTATE -LOCATE B 0 0 -20\n*F 0 0 0\n\
+             #WEIGHT *F 100 2 2 2\n#LUMP *F 20 -DRAG {areas} -CONSTANT\n~LEG ROD 80 40 -LEN 130 -WTPLEN 1\nCONNECTOR L1 ~LEG *F *A\nEND\n\
+             STORE -MOORDYN deck.txt\n"
+        ));
+        let text = file(&files, "deck.txt");
+        let row = text.lines().find(|line| line.starts_with("1 ") && line.contains("Free")).unwrap_or_default();
+        assert!(row.split_whitespace().any(|word| word == want), "{said:?}\n{text}");
+        assert_eq!(said.iter().any(|said| said.contains("loses the first one of six")), is_lost, "{said:?}");
+    }
+}
+
+#[test]
 fn what_a_deck_cannot_hold_is_named_and_nothing_is_written() {
     let head = "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 80\nMEDIT\n*A 90 0 -80\n*F 0 0 -5\n~LEG B_CAT 80 EXACT -LEN 130\nCONNECTOR L1 ~LEG *F *A\n";
     for (records, message) in [

@@ -61,6 +61,8 @@ fn wrong_models_are_errors_at_their_words() {
         ("WaterDepth: 100", "WaterDepht: 100", "Environment", "gives no depth"),
         ("Groups:", "3DBuoys:", "3DBuoys", "3DBuoys is not read"),
         ("EA: 800e3", "EA: [800e3", "", "is no YAML"),
+        ("  Orientation:", "  InitialHeading: 30\n  Orientation:", "30", "InitialHeading"),
+        ("Connection, ConnectionX", "Connect, ConnectionX", "", "has no Connection"),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("model.yml");

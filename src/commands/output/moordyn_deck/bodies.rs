@@ -254,10 +254,10 @@ impl<'a> DeckWriter<'a> {
                 self.deck.bodies.last().is_some_and(|row| row.volume.value == 0.0 && row.drag_area.value == [0.0]);
             let plain = is_alike(&lump.drag_areas) && is_alike(&lump.added) && lump.rotary_drag == [0.0; 3];
             match (at_origin && is_free, keeps_volume || !is_alike(&lump.added), plain) {
-                (true, true, _) => self.lump_of_body(lump),
+                (true, true, _) => self.lump_of_body(&body.name, lump),
                 (true, false, _) => {
                     on_points.push((*at, Lump { drag_areas: [0.0; 3], rotary_drag: [0.0; 3], ..*lump }));
-                    self.lump_of_body(&Lump { volume: 0.0, added: [0.0; 3], ..*lump });
+                    self.lump_of_body(&body.name, &Lump { volume: 0.0, added: [0.0; 3], ..*lump });
                 }
                 (false, _, true) => on_points.push((*at, *lump)),
                 (false, _, false) => {
@@ -300,14 +300,22 @@ impl<'a> DeckWriter<'a> {
     }
 
     /// What the water does at the reference point of the last body.
-    fn lump_of_body(&mut self, lump: &Lump) {
+    fn lump_of_body(&mut self, name: &str, lump: &Lump) {
         let Some(row) = self.deck.bodies.last_mut() else { return };
         row.volume = own(rounded(lump.volume));
-        let [along, about] = [lump.drag_areas, lump.rotary_drag];
-        let all: Vec<f64> = along.iter().chain(&about).map(|area| rounded(*area)).collect();
-        row.drag_area = own(if all.iter().all(|area| *area == 0.0) { vec![0.0] } else { all });
+        let [along, about] = [lump.drag_areas, lump.rotary_drag].map(|areas| areas.map(rounded));
+        // MoorDyn 2.7.2 loses the first one of six areas, and none of two
+        let is_short = is_alike(&along) && is_alike(&about);
+        row.drag_area = own(match (along, about) {
+            ([0.0, 0.0, 0.0], [0.0, 0.0, 0.0]) => vec![0.0],
+            ([area, ..], [turning, ..]) if is_short => vec![area, turning],
+            _ => along.iter().chain(&about).copied().collect(),
+        });
         let added = lump.added.map(rounded);
         row.added_mass = own(if is_alike(&added) { vec![added[0]] } else { added.to_vec() });
+        if !is_short && along[0] > 0.0 {
+            self.remark(format!("{name}: MoorDyn 2.7.2 loses the first one of six drag areas, that along x"));
+        }
     }
 
     /// The type of a rod of this mass per length (kg/m); returns its name.

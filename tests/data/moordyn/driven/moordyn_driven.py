@@ -20,60 +20,66 @@ SAID = os.fdopen(os.dup(1), "w")
 os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
 
 
-def clump(system):
-    _, _, z = moordyn.GetPointPos(moordyn.GetPoint(system, 2))
+def clump(system, rows):
+    # the free point
+    number = next(int(row[0]) for row in rows if row[1:2] == ["Free"])
+    _, _, z = moordyn.GetPointPos(moordyn.GetPoint(system, number))
     return {"z": z}
 
 
-def body(system):
+def body(system, _):
     x, _, _, _, pitch, _ = moordyn.GetBodyState(moordyn.GetBody(system, 1))[0]
     return {"x": x, "pitch": np.degrees(pitch)}
 
 
-def rod(system):
+def rod(system, _):
     x, _, z = moordyn.GetRodNodePos(moordyn.GetRod(system, 1), 0)
     return {"x": x, "z": z}
 
 
-def nothing(_):
+def nothing(*_):
     return {}
 
 
-# fairlead, its amplitudes in x and z (m), end of the run and beginning of what counts (s), the steps of MoorDyn with 20 and 40 segments (s)
+# amplitudes of the fairlead in x and z (m), end of the run and beginning of what counts (s), the steps of MoorDyn with 20 and 40 segments (s)
 DECKS = {
-    "clump": (3, (1.5, 1.0), 120, 90, (1e-3, 5e-4), clump),
-    "body": (8, (1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
-    "body_like": (8, (1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
-    "rod": (2, (1.0, 0.8), 120, 90, (5e-4, 5e-4), rod),
-    "current": (2, (0.8, 0.5), 120, 90, (1e-3, 5e-4), nothing),
-    "waves": (2, (0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
-    "elevation": (2, (0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
+    "clump": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), clump),
+    "body": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
+    "body_like": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
+    "rod": ((1.0, 0.8), 120, 90, (5e-4, 5e-4), rod),
+    "current": ((0.8, 0.5), 120, 90, (1e-3, 5e-4), nothing),
+    "waves": ((0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
+    "elevation": ((0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
 }
 
 
 def run(name, segments, step):
     """The largest and the least of each quantity."""
-    fairlead, (ax, az), end, begin, steps, places = DECKS[name]
+    (ax, az), end, begin, _, places = DECKS[name]
     text = (HERE / f"{name}.txt").read_text()
-    text = re.sub(r"(?m)^(\d+ +(?:rope|soft) .*) 20 +-$", rf"\1 {segments} -", text)
-    text = re.sub(r"(?m)^\S+ +dtM$", f"{step} dtM", text)
+    text = re.sub(r"(?m)^(\d+(?: +\S+){4}) +20 +-$", rf"\1 {segments} -", text)
+    # a deck that windlass wrote has no step
+    text = re.sub(r"(?m)^\S+ +dtM\n", "", text)
+    text = re.sub(r"(?m)^(.*--- OPTIONS.*)$", rf"\1\n{step} dtM", text)
+    rows = [row.split() for row in text.splitlines()]
     with tempfile.TemporaryDirectory() as folder:
         for path in HERE.glob("*.txt"):
             shutil.copy(path, folder)
         path = pathlib.Path(folder) / "deck.txt"
         path.write_text(text)
         system = moordyn.Create(str(path))
-        start = np.array(next([float(x) for x in row[2:5]] for row in map(str.split, text.splitlines()) if row[1:2] == ["Coupled"]))
+        fairlead = next(row for row in rows if row[1:2] == ["Coupled"])
+        start = np.array([float(x) for x in fairlead[2:5]])
         amplitude, frequency = np.array([ax, 0.0, az]), 2 * np.pi / PERIOD
         moordyn.Init(system, list(start), [0.0] * 3)
-        point = moordyn.GetPoint(system, fairlead)
+        point = moordyn.GetPoint(system, int(fairlead[0]))
         found = {}
         for index in range(round(end / STEP)):
             time = index * STEP
             place = start + amplitude * np.sin(frequency * time)
             moordyn.Step(system, list(place), list(amplitude * frequency * np.cos(frequency * time)), time, STEP)
             if time >= begin:
-                now = {"force": np.linalg.norm(moordyn.GetPointForce(point))} | places(system)
+                now = {"force": np.linalg.norm(moordyn.GetPointForce(point))} | places(system, rows)
                 for quantity, value in now.items():
                     found.setdefault(quantity, []).append(value)
         moordyn.Close(system)
@@ -83,7 +89,7 @@ def run(name, segments, step):
 chosen = sys.argv[1:] or list(DECKS)
 rows = ["deck,segments,quantity,largest,least"]
 for name in chosen:
-    for segments, step in zip((20, 40), DECKS[name][4]):
+    for segments, step in zip((20, 40), DECKS[name][3]):
         rows += [f"{name},{segments},{quantity},{largest:.6g},{least:.6g}" for quantity, (largest, least) in run(name, segments, step).items()]
 if sys.argv[1:]:
     print("\n".join(rows), file=SAID)
