@@ -5,7 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Files that the scripts of verification cases read, besides those in `share/verification/data`.
-const DATA: [&str; 2] = ["tests/data/aqwa_tether_spectrum.csv", "tests/data/catenary_2000.csv"];
+const DATA: [&str; 4] = [
+    "tests/data/aqwa_tether_spectrum.csv",
+    "tests/data/catenary_2000.csv",
+    "tests/data/moordyn/driven/body_like.txt",
+    "tests/data/moordyn/driven/clump.txt",
+];
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");

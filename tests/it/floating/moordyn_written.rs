@@ -153,7 +153,7 @@ fn what_a_deck_cannot_hold_is_named_and_nothing_is_written() {
     for (records, message) in [
         (
             "~S FIX X Y Z\nCONNECTOR S1 ~S *F\nEND\n",
-            "a deck cannot hold S1: a connector of class type FIX has no counterpart",
+            "a deck cannot hold S1: it is a joint of class type FIX, and what is pinned in MoorDyn 2.7.2 does not feel that its pin accelerates",
         ),
         (
             "~H H_CAT 80 -LEN 100\nCONNECTOR S1 ~H *F *A\nEND\n",

@@ -57,8 +57,13 @@ impl DeckWriter<'_> {
 
     fn properties(&self, connector: &Connector, class: &Class) -> Outcome<LineProperties> {
         let kind = class.object.kind();
-        let nothing =
-            || self.refuse_line(connector, &format!("a connector of class type {kind} has no counterpart"), &[]);
+        let nothing = || {
+            let why = match kind {
+                "FIX" => "it is a joint of class type FIX, and what is pinned in MoorDyn 2.7.2 does not feel that its pin accelerates".to_string(),
+                _ => format!("a connector of class type {kind} has no counterpart"),
+            };
+            self.refuse_line(connector, &why, &[])
+        };
         if self.model.assembly_of(&connector.name).is_some() {
             return Err(self.refuse_line(connector, "it belongs to an assembly", &[]));
         }
