@@ -61,6 +61,9 @@ pub struct PressureFile<'a> {
     pub infinite: &'a DMatrix<f64>,
     /// Mean drift, or why there is none.
     pub drift: Result<&'a [BodyDrift], &'a str>,
+    /// Of a body alone: where its drift is largest, the number of the frequency, and the difference there of that by the waves far away from that by a
+    /// control surface, over the largest.
+    pub drift_check: Option<(usize, f64)>,
     /// What mesh and settings make it.
     pub key: &'a str,
 }
@@ -115,10 +118,10 @@ impl PressureFile<'_> {
         for (name, text, of) in [
             (
                 "excitation_force",
-                "exciting force for an amplitude of 1 m, by pressure",
+                "exciting force for an amplitude of 1 m, by Haskind's relation",
                 &(|forces: &FrequencyForces| forces.excitation.clone()) as &dyn Fn(&FrequencyForces) -> _,
             ),
-            ("haskind_force", "the same by Haskind's relation", &|forces| forces.haskind.clone()),
+            ("pressure_force", "the same by the pressure on the hull", &|forces| forces.pressure_excitation.clone()),
         ] {
             let all: Vec<_> = self.forces.iter().map(of).collect();
             let missing = || std::iter::repeat_n(f64::NAN, self.headings.len() * count);
@@ -162,11 +165,17 @@ impl PressureFile<'_> {
                 let values = drift.iter().flat_map(|own| own.values.iter().flatten().flatten()).copied().collect();
                 let places = ["frequency", "wave_direction", "body", "component"];
                 made.numbers("mean_drift", &places, "N/m2, N/m", "mean drift in surge, sway and yaw", values)?;
-                if !alone {
+                let (text, differences) = if alone {
+                    let checked =
+                        |i: usize| self.drift_check.filter(|(at, _)| *at == i).map_or(f64::NAN, |(_, off)| off);
+                    let text = "largest difference of the drift by a control surface from that far away, over the largest, where that is";
+                    (text, (0..self.forces.len()).map(checked).collect())
+                } else {
                     let text =
                         "largest difference of the sum of the bodies' drift from that far away, over the largest";
-                    made.numbers("drift_difference", &["frequency"], "1", text, drift_differences(drift))?;
-                }
+                    (text, drift_differences(drift))
+                };
+                made.numbers("drift_difference", &["frequency"], "1", text, differences)?;
             }
             Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
         }

@@ -19,7 +19,7 @@ pub struct FreeBody {
 }
 
 /// Motions by waves of amplitude 1 m (m/m, rad/m), heading by heading, from `(-omega2 (M + A) - i omega (B + B') + C) xi = X` with the forces by
-/// pressure.
+/// Haskind's relation.
 ///
 /// # Errors
 /// Matrices of another size than those of the forces; equations without a solution.

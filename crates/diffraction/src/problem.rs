@@ -85,10 +85,10 @@ pub struct FrequencyForces {
     pub added_mass: DMatrix<f64>,
     /// Radiation damping (N s/m, N s, N m s).
     pub damping: DMatrix<f64>,
-    /// Of each heading: wave exciting forces (N, N m for an amplitude of 1 m) by the pressure of the diffraction problem.
+    /// Of each heading: wave exciting forces (N, N m for an amplitude of 1 m) by Haskind's relation, from the radiation potentials.
     pub excitation: Vec<Vec<C>>,
-    /// The same by Haskind's relation, from the radiation potentials.
-    pub haskind: Vec<Vec<C>>,
+    /// The same by the pressure of the diffraction problem, which panels at sharp edges leave farther off.
+    pub pressure_excitation: Vec<Vec<C>>,
     /// Products with the matrices of the classes until the equations were solved.
     pub iterations: usize,
 }
@@ -98,11 +98,11 @@ impl FrequencyForces {
     /// headings: forces and moments apart, the larger of the two. It measures the mesh; 0 where there are no headings.
     pub fn excitation_difference(&self) -> f64 {
         let mut kinds = [[0.0_f64; 2]; 2];
-        for (by_pressure, by_haskind) in self.excitation.iter().zip(&self.haskind) {
-            for (motion, (pressure, haskind)) in by_pressure.iter().zip(by_haskind).enumerate() {
+        for (by_haskind, by_pressure) in self.excitation.iter().zip(&self.pressure_excitation) {
+            for (motion, (haskind, pressure)) in by_haskind.iter().zip(by_pressure).enumerate() {
                 let [difference, largest] = &mut kinds[usize::from(motion % MOTIONS >= 3)];
                 *difference = difference.max((pressure - haskind).norm());
-                *largest = largest.max(pressure.norm());
+                *largest = largest.max(haskind.norm());
             }
         }
         kinds
@@ -299,7 +299,7 @@ impl DiffractionProblem {
             added_mass: DMatrix::zeros(count, count),
             damping: DMatrix::zeros(count, count),
             excitation: vec![vec![C::default(); count]; headings.len()],
-            haskind: vec![vec![C::default(); count]; headings.len()],
+            pressure_excitation: vec![vec![C::default(); count]; headings.len()],
             iterations: 0,
         };
         let surface = self.mesh.surface();
@@ -363,8 +363,8 @@ impl DiffractionProblem {
                         })
                         .sum();
                     let factor = C::new(0.0, frequency * rho);
-                    made.excitation[index][*motion] = factor * pressure;
-                    made.haskind[index][*motion] = factor * haskind;
+                    made.excitation[index][*motion] = factor * haskind;
+                    made.pressure_excitation[index][*motion] = factor * pressure;
                 }
             }
         }

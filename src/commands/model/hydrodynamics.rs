@@ -162,8 +162,9 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
              radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
              FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. A body alone has its mean drift, by the waves far away and with the motions \
              that its mass, stiffness, moorings and damping give it now: G_MDRIFT finds it anew after these have changed. Roll has the damping of radiated waves \
-             alone: #DAMP adds what eddies take. The report has the panels of a wave length and the difference of exciting forces by pressure and by Haskind's \
-             relation, which measures the mesh. What was computed is written beside the answers, BODY.nc in the layout of Capytaine, and is taken from there by a run with the same mesh, \
+             alone: #DAMP adds what eddies take. Exciting forces are those of Haskind's relation; the report has the panels of a wave length and the largest difference of the forces by pressure from \
+             them, which measures the mesh. The drift of a body alone is checked by a control surface where it is largest; a difference above 5 % of the largest, of several bodies of \
+             their sum from the waves far away, is warned of with the size of panels that would agree. What was computed is written beside the answers, BODY.nc in the layout of Capytaine, and is taken from there by a run with the same mesh, \
              water, headings, periods and motions; DATABASE -CAPYTAINE reads it. Headings and periods are kept as those of RAO. A body with a database of DATABASE or I_TOTAL keeps it: \
              that is said. For a body without a hull motions stop with one error until it is given a database.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BARGE\n*CG 0 0 0\n#WEIGHT *CG 100552 12 26 26\n&SURFACE\n\

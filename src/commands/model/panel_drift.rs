@@ -25,7 +25,7 @@ use windlass_solve::SolveError;
 use windlass_solve::frequency::{LinearSystem, Motions};
 
 /// Far field and control surface that differ by more than this share of the largest drift are warned of.
-const POOR_AGREEMENT: f64 = 0.05;
+pub const POOR_AGREEMENT: f64 = 0.05;
 
 /// What of the largest force is rounding.
 const ROUNDING_SHARE: f64 = 1e-6;
@@ -154,6 +154,27 @@ pub fn of_frequency(
         }
     }
     Ok(Some(BodyDrift { values, sums }))
+}
+
+/// Where the drift of a body alone is largest: the number of the frequency, and the largest difference over all headings of the drift by the waves far away
+/// from that by a control surface, over the largest. None where there is no drift, or no control surface fits.
+pub fn check_of_largest(
+    source: &DriftSource,
+    meshed: &MeshedBodies,
+    problem: &DiffractionProblem,
+    drifts: &[BodyDrift],
+    headings: &[f64],
+) -> Option<(usize, f64)> {
+    let forces = |own: &BodyDrift| own.values.iter().filter_map(|of| of.first().copied()).collect::<Vec<_>>();
+    let largest_of = |own: &BodyDrift| forces(own).iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
+    let sizes = drifts.iter().map(largest_of).enumerate();
+    let (at, largest) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, largest)| *largest > 0.0)?;
+    let waves = problem.solve_waves(*meshed.frequencies.get(at)?, headings).ok()?;
+    let motions = motions_in_waves(source, meshed, &waves.forces, headings).ok()??;
+    let near = waves.control_surface_drift(&motions, &ControlSurface::Cylinder(problem.control_cylinder()))?;
+    let off =
+        forces(drifts.get(at)?).into_iter().zip(near).map(|([x, y, _], near)| (x - near.surge).hypot(y - near.sway));
+    Some((at, off.fold(0.0, f64::max) / largest))
 }
 
 /// Motions of the bodies in waves of unit amplitude, heading by heading, six a body in axes of the group, phases to its origin; none where there is no
@@ -439,8 +460,10 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
     let worst = rows.iter().map(|row| row.difference).fold(0.0, f64::max);
     if worst > POOR_AGREEMENT * largest {
         let text = format!(
-            "far field and control surface differ by {:.1} % of the largest drift: the panels are too large",
-            100.0 * worst / largest
+            "far field and control surface differ by {:.1} % of the largest drift, more than {:.0} %: the panels are too large, -PANEL {:.2} would agree",
+            100.0 * worst / largest,
+            100.0 * POOR_AGREEMENT,
+            meshed.size * (POOR_AGREEMENT * largest / worst).sqrt()
         );
         job.warn(format!("{name}: {text}"), span);
     }

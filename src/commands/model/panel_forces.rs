@@ -5,7 +5,7 @@
 use crate::commands::model::database;
 use crate::commands::model::hydrodynamics::settle_pressure;
 use crate::commands::model::panel_check;
-use crate::commands::model::panel_drift::{self, DriftSource};
+use crate::commands::model::panel_drift::{self, DriftSource, POOR_AGREEMENT};
 use crate::commands::{Job, count};
 use crate::report::pressure_file::{FileBody, KEY, NO_DRIFT, PressureFile};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -261,7 +261,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 2));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 3));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size].into_iter());
@@ -417,7 +417,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         None => solve(job, &meshed, &mut drift, request, &key)?,
     };
     let databases = meshed.databases(&bytes).map_err(wrong)?;
-    let quality = Quality::read(&bytes, &meshed).map_err(|error| wrong(error.to_string()))?;
+    let quality = Quality::read(&bytes).map_err(|error| wrong(error.to_string()))?;
     match &read_from {
         Some(path) => job.say(&format!("read {}: of the same mesh and settings", path.display())),
         None => {
@@ -525,8 +525,10 @@ fn solve(
         bar.inc(1);
     }
     bar.finish_and_clear();
+    let mut drift_check = None;
     if meshed.bodies.len() == 1 {
         panel_drift::remove_noise(&mut drifts);
+        drift_check = panel_drift::check_of_largest(drift, meshed, &problem, &drifts, &request.headings);
     }
     let infinite = problem.added_mass_limit(FrequencyLimit::Infinite).map_err(refused)?;
     let drift = if let DriftSource::None(why) = drift { Err(why.as_str()) } else { Ok(drifts.as_slice()) };
@@ -540,6 +542,7 @@ fn solve(
         energy: &energy,
         infinite: &infinite,
         drift,
+        drift_check,
         key,
     };
     file.bytes().map_err(|error| Diagnostic::error(format!("{all}: {error}"), span))
@@ -555,21 +558,20 @@ pub struct Quality {
     pub energy: Vec<f64>,
     /// Largest difference of added mass and damping from their transposes, over the largest of their kind.
     pub asymmetry: Vec<f64>,
-    /// Largest difference of the sum of the drifts of several bodies from that by the waves far away, over the largest; none of a body alone.
+    /// Largest difference of the sum of the drifts of several bodies from that by the waves far away, over the largest; of a body alone that of its drift
+    /// by a control surface, not finite but where the drift is largest. None where there is no drift.
     drift: Option<Vec<f64>>,
 }
 
 impl Quality {
-    fn read(bytes: &[u8], meshed: &MeshedBodies) -> Result<Self, DatabaseError> {
+    fn read(bytes: &[u8]) -> Result<Self, DatabaseError> {
         let numbers = |name: &str| capytaine::numbers(SOURCE, bytes, name);
-        let several = meshed.bodies.len() > 1;
-        let drift = if several { numbers("drift_difference").ok() } else { None };
         Ok(Quality {
             products: numbers("products")?,
             haskind: numbers("haskind_difference")?,
             energy: numbers("energy_difference")?,
             asymmetry: numbers("asymmetry")?,
-            drift,
+            drift: numbers("drift_difference").ok(),
         })
     }
 }
@@ -601,6 +603,21 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span
         let text = format!(
             "{all}: exciting forces by pressure and by Haskind's relation differ by {:.1} % of the largest: the panels are too large",
             100.0 * poor
+        );
+        job.warn(text, span);
+    }
+    let apart = quality.drift.iter().flatten().copied().filter(|off| off.is_finite()).fold(0.0, f64::max);
+    if apart > POOR_AGREEMENT {
+        let ways = match meshed.bodies.len() {
+            1 => "far away and by a control surface",
+            _ => "of all bodies far away and by their control surfaces",
+        };
+        // the error falls with the square of the size
+        let finer = meshed.size * (POOR_AGREEMENT / apart).sqrt();
+        let text = format!(
+            "{all}: mean drift {ways} differs by {:.1} % of the largest, more than {:.0} %: the panels are too large, -PANEL {finer:.2} would agree",
+            100.0 * apart,
+            100.0 * POOR_AGREEMENT
         );
         job.warn(text, span);
     }
@@ -645,14 +662,14 @@ fn ogilvie_figures(quality: &OgilvieQuality) -> String {
 fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &[Database])) -> Table {
     let water = meshed.water;
     let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
-    let rows: Vec<(f64, f64, f64, f64, usize, f64)> = meshed
+    let rows: Vec<(f64, f64, f64, f64, usize, Option<f64>)> = meshed
         .frequencies
         .iter()
         .enumerate()
         .rev()
         .map(|(i, frequency)| {
             let length = wave_length(*frequency, water);
-            let sum = quality.drift.as_ref().map_or(f64::NAN, |list| 100.0 * at(list, i));
+            let sum = quality.drift.as_ref().map(|list| 100.0 * at(list, i)).filter(|off| off.is_finite());
             let products = at(&quality.products, i) as usize;
             (TAU / frequency, length, length / meshed.size, 100.0 * at(&quality.haskind, i), products, sum)
         })
@@ -711,7 +728,10 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         "Haskind: largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
     );
     if quality.drift.is_some() {
-        table.note("Drift: largest difference of the sum of the bodies' drift from that of the waves far away, per cent of the largest");
+        table.note(match meshed.bodies.len() {
+            1 => "Drift: difference of the mean drift by a control surface from that of the waves far away, which acts, per cent of the largest, at the period of that",
+            _ => "Drift: largest difference of the sum of the bodies' drift from that of the waves far away, per cent of the largest",
+        });
     }
     table
 }

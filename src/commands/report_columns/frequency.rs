@@ -91,6 +91,11 @@ pub(super) static REPORTS: &[ReportColumns] = &[
                 "largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
             ),
             column("Products", NONE, "products with the matrices until the equations were solved"),
+            column(
+                "Drift",
+                NONE,
+                "largest difference of mean drift by control surfaces from that of the waves far away, per cent of the largest; of a body alone where its drift is largest",
+            ),
         ],
     },
     ReportColumns {

@@ -221,17 +221,19 @@ fn slow_mode_with_little_damping_is_named_with_period_and_ratio() {
     assert!(!named(&said(40.0, "-SEA ISSC 180 2 9"), "slow mode"));
 }
 
+/// The wave number of a period (s) by halving of w2 = g k tanh(k h) (1/m).
+fn number(period: f64, depth: f64) -> f64 {
+    let (mut low, mut high) = (1e-6, 1.0);
+    for _ in 0..100 {
+        let k = 0.5 * (low + high);
+        if 9.80665 * k * f64::tanh(k * depth) > (TAU / period).powi(2) { high = k } else { low = k }
+    }
+    low
+}
+
 #[test]
 fn newman_in_shallow_water_is_warned_of_by_mean_kh() {
-    // two waves of equal energy, of 10 s and 12 s; their wave numbers by halving of w2 = g k tanh(k h)
-    let number = |period: f64, depth: f64| {
-        let (mut low, mut high) = (1e-6, 1.0);
-        for _ in 0..100 {
-            let k = 0.5 * (low + high);
-            if 9.80665 * k * f64::tanh(k * depth) > (TAU / period).powi(2) { high = k } else { low = k }
-        }
-        low
-    };
+    // two waves of equal energy, of 10 s and 12 s
     let said = |depth: f64| {
         let weight = 1e4 * 9.80665;
         common::run_script(&format!(
@@ -249,4 +251,30 @@ fn newman_in_shallow_water_is_warned_of_by_mean_kh() {
     assert!(shallow.iter().any(|line| line.contains(&text)), "{text}: {shallow:?}");
     assert!(0.5 * (number(10.0, 40.0) + number(12.0, 40.0)) * 40.0 > 1.0);
     assert!(!said(40.0).iter().any(|line| line.contains("k h")));
+}
+
+#[test]
+fn newman_in_shallow_water_is_warned_of_by_sresponse() {
+    // a spectrum of equal densities from 0.5 to 0.6 rad/s: the mean of k h is that over the frequencies
+    let said = |depth: f64| {
+        let (text, list) = common::run_script(&format!(
+            "&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -G 9.80665\n&ENV -DEPTH {depth}\nMEDIT\n*G 0 0 0\n&DESCRIBE BODY TANKER -IGNORE Y Z RX RY RZ\n*CG 0 0 0\n\
+             #WEIGHT *CG 1600000 15 65 65\n#AMASS *CG 80000\n#DAMP *CG 1300\nDATABASE TANKER -WAMIT {}/tests/data/tanker/tanker\n\
+             ~S GSPR BOTH X 1000 1E9 -LEN 0\nCONNECTOR K ~S *CG *G\nEND\n&DATA CURVES\nF_SPECTRUM BOX 0.5 1 0.6 1\nEND\n\
+             &ENV HEAD -DEPTH {depth} -SEA BOX 180 2 {}\nFREQ_RESPONSE\nSRESPONSE HEAD\nSTATISTICS MOTION TANKER\nREPORT\nEND\nEND\n",
+            env!("CARGO_MANIFEST_DIR"),
+            TAU / 0.5
+        ));
+        format!("{text}\n{}", list.join("\n"))
+    };
+    let mean = |depth: f64| {
+        let of = |i: i32| number(TAU / (0.5 + 0.001 * (f64::from(i) + 0.5)), depth);
+        (0..100).map(of).sum::<f64>() / 100.0 * depth
+    };
+    assert!(mean(15.0) < 1.0 && mean(60.0) > 1.0);
+    let shallow = said(15.0);
+    let text = format!("k h is {:.2}", mean(15.0));
+    assert!(shallow.contains(&text), "{text}: {shallow}");
+    let deep = said(60.0);
+    assert!(deep.contains("slow drift by Newman's approximation") && !deep.contains("k h is"), "{deep}");
 }

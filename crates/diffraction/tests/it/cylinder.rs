@@ -81,9 +81,11 @@ fn truncated_cylinder_with_lid_meets_matched_eigenfunctions() {
         // of the largest force of the table
         for (i, mode, largest) in [(6, 0, 1.51), (8, 2, 2.94)] {
             let exact = Complex::new(n[i], n[i + 1]);
-            let [pressure, haskind] = [&found.excitation, &found.haskind].map(|forces| forces[0][mode] / 9810.0);
-            for made in [pressure, haskind] {
-                assert!((made - exact).norm() < 0.005 * largest, "nu {nu}, mode {mode}: {made} for {exact}");
+            let [pressure, haskind] =
+                [&found.pressure_excitation, &found.excitation].map(|forces| forces[0][mode] / 9810.0);
+            // by Haskind's relation, which acts, 0.27 %; by pressure 0.36 %
+            for (made, share) in [(pressure, 0.005), (haskind, 0.003)] {
+                assert!((made - exact).norm() < share * largest, "nu {nu}, mode {mode}: {made} for {exact}");
             }
         }
     }
@@ -103,9 +105,10 @@ fn bottom_mounted_cylinder_meets_closed_form() {
 
 #[test]
 fn two_cylinders_shelter_each_other_as_exact_series() {
-    let cylinder = CylinderMesh { draught: 2.0, rows: 10, rings: 0, turns: 8 };
+    // halves of 12 x 24 panels
+    let cylinder = CylinderMesh { draught: 2.0, rows: 12, rings: 0, turns: 12 };
     let body = |x: f64| DiffractionBody {
-        mesh: HullMesh::new(&cylinder.quads(4, x), MirrorPlanes::default()).unwrap(),
+        mesh: HullMesh::new(&cylinder.quads(2, x), MirrorPlanes { x: false, y: true }).unwrap(),
         origin: Vector3::new(x, 0.0, 0.0),
     };
     let water = Water { density: 1000.0, gravity: 9.81, depth: Some(2.0) };
@@ -116,10 +119,11 @@ fn two_cylinders_shelter_each_other_as_exact_series() {
         let exact: Vec<_> = n[2..].chunks(2).map(|pair| Complex::new(pair[0], pair[1])).collect();
         let largest = exact.iter().fold(0.0, |most: f64, x| most.max(x.norm()));
         for (mode, exact) in [0, 1, 6, 7].into_iter().zip(exact) {
-            let [pressure, haskind] = [&found.excitation, &found.haskind].map(|forces| forces[0][mode] / 9810.0);
+            let [pressure, haskind] =
+                [&found.pressure_excitation, &found.excitation].map(|forces| forces[0][mode] / 9810.0);
             for made in [pressure, haskind] {
                 assert!(
-                    (made - exact).norm() < 0.01 * largest,
+                    (made - exact).norm() < 0.005 * largest,
                     "k {}, {} deg, mode {mode}: {made} for {exact}",
                     n[0],
                     n[1]

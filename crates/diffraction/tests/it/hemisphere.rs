@@ -74,7 +74,7 @@ fn largest_errors(problem: &DiffractionProblem, most_k: f64) -> [f64; 3] {
             worst[0] = worst[0].max((a - b).abs());
         }
         for (mode, force) in [0, 2].into_iter().zip(row.forces) {
-            for (i, made) in [found.excitation[0][mode], found.haskind[0][mode]].into_iter().enumerate() {
+            for (i, made) in [found.pressure_excitation[0][mode], found.excitation[0][mode]].into_iter().enumerate() {
                 let made = made / (WATER.density * WATER.gravity);
                 worst[1 + i] = worst[1 + i].max((made - force).norm() / force.norm());
             }
@@ -129,7 +129,7 @@ fn damping_of_hemisphere_is_energy_of_radiated_waves() {
         let group_velocity = WATER.gravity / (2.0 * found.frequency);
         for (mode, share) in [(0, 8.0), (2, 4.0)] {
             let energy =
-                k * found.haskind[0][mode].norm_sqr() / (share * WATER.density * WATER.gravity * group_velocity);
+                k * found.excitation[0][mode].norm_sqr() / (share * WATER.density * WATER.gravity * group_velocity);
             let damping = found.damping[(mode, mode)];
             assert!((energy / damping - 1.0).abs() < 0.005, "{k} {mode}: {energy} {damping}");
         }

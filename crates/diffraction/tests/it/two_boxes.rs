@@ -69,8 +69,8 @@ fn two_floating_boxes_meet_capytaine_on_same_mesh() {
                 "A" => values.push(("A", kind, found.added_mass[(row, column)].into(), given)),
                 "B" => values.push(("B", kind, found.damping[(row, column)].into(), given)),
                 _ => {
-                    values.push(("X by Haskind", kind, found.haskind[0][row], given));
-                    values.push(("X by pressure", kind, found.excitation[0][row], given));
+                    values.push(("X by Haskind", kind, found.excitation[0][row], given));
+                    values.push(("X by pressure", kind, found.pressure_excitation[0][row], given));
                 }
             }
         }
@@ -158,7 +158,7 @@ fn skew_barge_at_oblique_headings_has_forces_of_capytaine_on_same_mesh() {
             let (heading, direction) = (usize::from(*heading > 90.0), *direction as usize);
             let given = Complex::new(*re, *im);
             let by_pressure = if direction > 2 { 0.02 } else { 0.01 };
-            let ways = [("Haskind", &found.haskind, 0.01), ("pressure", &found.excitation, by_pressure)];
+            let ways = [("Haskind", &found.excitation, 0.01), ("pressure", &found.pressure_excitation, by_pressure)];
             for (way, forces, share) in ways {
                 let made = forces[heading][direction];
                 let off = (made - given).norm() / peak(direction > 2);

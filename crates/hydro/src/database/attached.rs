@@ -1,6 +1,7 @@
 //! What the database of a body brings among its loads.
 
 use super::excitation::Excitation;
+use super::interaction::own_radiation;
 use super::memory::{MAX_LAGS, RetardationMemory};
 use super::radiation::Radiation;
 use super::slow_drift::SlowDrift;
@@ -327,7 +328,7 @@ pub fn gather_database_loads(
     if under_way.is_some() && *damping != Matrix6::zeros() {
         carried.push(Box::new(DampingLoad { damping: std::mem::take(damping), linear }));
     }
-    if let Some(radiation) = Radiation::new(data)? {
+    if let Some(radiation) = own_radiation(model, body)? {
         let infinite = radiation.infinite;
         if under_way.is_none() {
             added_mass = infinite;

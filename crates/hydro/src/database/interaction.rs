@@ -10,7 +10,7 @@ use crate::sea::Sea;
 use crate::{Category, move_stiffness};
 use nalgebra::Matrix6;
 use windlass_base::pose::Six;
-use windlass_model::{ClassError, Database, InteractingBodies, Model};
+use windlass_model::{Body, ClassError, Database, InteractingBodies, Model};
 
 /// The interaction as the radiation of one body: about the origins of both, in the axes of each.
 pub fn interaction_about_origins(pair: &InteractingBodies) -> Option<Database> {
@@ -27,13 +27,84 @@ pub fn interaction_about_origins(pair: &InteractingBodies) -> Option<Database> {
     })
 }
 
-/// The interaction as the radiation of one body, with its kernel; none where a body has no radiation.
+/// The radiation of bodies that were solved together, which stand in the model with the databases of one source.
+struct BodyGroup<'m> {
+    /// Keys of the bodies.
+    keys: Vec<&'m str>,
+    /// Of each pair, row by row.
+    pairs: Vec<Option<Radiation>>,
+}
+
+impl<'m> BodyGroup<'m> {
+    /// The group of a source.
+    fn new(model: &'m Model, source: &str) -> Result<Self, ClassError> {
+        let members: Vec<(&str, &Database)> = model
+            .bodies
+            .iter()
+            .filter_map(|(key, body)| Some((key.as_str(), body.database.as_ref()?.data.as_ref())))
+            .filter(|(_, data)| data.source == source)
+            .collect();
+        let interactions = model.interactions();
+        let database = |row: usize, column: usize| {
+            let (on, own) = members.get(row)?;
+            if row == column {
+                return Some(Database {
+                    source: own.source.clone(),
+                    reference: own.reference,
+                    frequencies: own.frequencies.clone(),
+                    added_mass: own.added_mass.clone(),
+                    damping: own.damping.clone(),
+                    infinite: own.infinite,
+                    ..Database::default()
+                });
+            }
+            let (by, _) = members.get(column)?;
+            let pair = interactions.iter().find(|pair| pair.on.0 == *on && pair.by.0 == *by)?;
+            interaction_about_origins(pair)
+        };
+        let pairs = Radiation::of_bodies(members.len(), database)?;
+        Ok(BodyGroup { keys: members.iter().map(|(key, _)| *key).collect(), pairs })
+    }
+
+    /// The force on a body by motions of another, or by its own.
+    fn pair(&self, on: &str, by: &str) -> Option<&Radiation> {
+        let number = |key: &str| self.keys.iter().position(|own| *own == key);
+        self.pairs.get(number(on)? * self.keys.len() + number(by)?)?.as_ref()
+    }
+}
+
+/// The radiation of a body by its own motions; none where it has no database with radiation.
 ///
 /// # Errors
 /// Databases of one frequency.
-pub fn interaction_radiation(pair: &InteractingBodies) -> Result<Option<(Database, Radiation)>, ClassError> {
-    let Some(data) = interaction_about_origins(pair) else { return Ok(None) };
-    Ok(Radiation::of_interaction(&data)?.map(|radiation| (data, radiation)))
+pub fn own_radiation(model: &Model, body: &Body) -> Result<Option<Radiation>, ClassError> {
+    let Some(attached) = &body.database else { return Ok(None) };
+    let data = attached.data.as_ref();
+    if data.interactions.is_empty() {
+        return Radiation::new(data);
+    }
+    let key = Model::key(&body.name);
+    Ok(BodyGroup::new(model, &data.source)?.pair(&key, &key).cloned())
+}
+
+/// All interactions of a model, each as the radiation of one body, with its kernel.
+///
+/// # Errors
+/// Databases of one frequency.
+pub fn interaction_radiations(model: &Model) -> Result<Vec<(InteractingBodies<'_>, Database, Radiation)>, ClassError> {
+    let mut groups: Vec<(String, BodyGroup)> = Vec::new();
+    let mut list = Vec::new();
+    for pair in model.interactions() {
+        let Some(data) = interaction_about_origins(&pair) else { continue };
+        if !groups.iter().any(|(source, _)| *source == data.source) {
+            groups.push((data.source.clone(), BodyGroup::new(model, &data.source)?));
+        }
+        let group = groups.iter().find(|(source, _)| *source == data.source);
+        if let Some(radiation) = group.and_then(|(_, group)| group.pair(pair.on.0, pair.by.0)) {
+            list.push((pair, data, radiation.clone()));
+        }
+    }
+    Ok(list)
 }
 
 /// Forces of the waves that a body radiates on another, in time.
@@ -125,13 +196,12 @@ pub fn gather_interactions(
     under_way: Option<Option<&Sea>>,
 ) -> Result<Vec<GatheredInteraction>, ClassError> {
     let mut list = Vec::new();
-    for pair in model.interactions() {
-        let Some((_, radiation)) = interaction_radiation(&pair)? else { continue };
+    for (pair, _, radiation) in interaction_radiations(model)? {
         let load = match under_way {
             None => None,
             Some(sea) => {
                 let attached = pair.on.1.database.as_ref();
-                let own = attached.map(|attached| Radiation::new(&attached.data)).transpose()?.flatten();
+                let own = own_radiation(model, pair.on.1)?;
                 let usual = own.as_ref().map_or_else(|| radiation.memory(), Radiation::memory);
                 let length = attached.and_then(|attached| attached.memory).unwrap_or(usual);
                 let step = super::attached::memory_step(model);

@@ -6,7 +6,8 @@
 //! A source ends at some frequency, often before its damping does. What is beyond it is found by its added mass, which the second relation ties to
 //! the damping at all frequencies: beyond the last frequency w_n the damping is, with `u = 1 - (w_n/w)^2`,
 //! `(w_n/w)^3 (B_n (1 - u)^2 + 2 B_1 u (1 - u) + B_2 u^2)`, and B_1 and B_2 are those of least squares of the relation over the frequencies of the
-//! source [W-TAIL]. A steady motion at one of these frequencies then meets in time the added mass and damping that the source has there.
+//! source [W-TAIL]. A steady motion at one of these frequencies then meets in time the added mass and damping that the source has there. Of bodies
+//! solved together each pair of directions has a tail of its own, and those of all bodies together give no energy.
 
 use super::checks::MODES;
 use super::interpolation::moved_matrix;
@@ -64,82 +65,57 @@ pub struct OgilvieQuality {
 }
 
 impl Radiation {
-    /// That of a database; `None` where it has none. The tail is fitted to the added mass of a body alone; of bodies solved together damping is straight between frequencies and falls as 1/w3, as
-    /// of a sharp resonance of a gap between them that the frequencies leave out the relation is not fulfilled.
+    /// That of a database of a body alone, or of the own motions of one of several; `None` where it has none.
     ///
     /// # Errors
     /// Fewer than two frequencies.
     pub fn new(data: &Database) -> Result<Option<Self>, ClassError> {
-        Radiation::build(data, data.interactions.is_empty())
+        let Some(fit) = RadiationFit::new(data)? else { return Ok(None) };
+        if !fit.is_determined {
+            let end = fit.end;
+            return Ok(Some(fit.finish(&[end; 2])));
+        }
+        let first = positive_part(&fit.first_tail());
+        let second = positive_part(&fit.second_tail(&first));
+        Ok(Some(fit.finish(&[first, second])))
     }
 
-    /// That of the motions of one body as it acts on another.
+    /// That of all pairs of some bodies of one source, row by row: the force on the body of the row by motions of that of the column, about the origins and in
+    /// the axes of both. `database` gives what is known of a pair. The tails of all pairs together give no energy, as those of a body alone.
     ///
     /// # Errors
-    /// As [`Radiation::new`].
-    pub fn of_interaction(data: &Database) -> Result<Option<Self>, ClassError> {
-        Radiation::build(data, false)
-    }
-
-    fn build(data: &Database, has_fitted_tail: bool) -> Result<Option<Self>, ClassError> {
-        let (Some(last), Some(end)) = (data.frequencies.last(), data.damping.last()) else { return Ok(None) };
-        if data.frequencies.len() < 2 {
-            let text = format!("the database ({}) has one frequency only: its radiation has no memory", data.source);
-            return Err(ClassError::new(text));
+    /// Fewer than two frequencies.
+    pub fn of_bodies(
+        count: usize,
+        database: impl Fn(usize, usize) -> Option<Database>,
+    ) -> Result<Vec<Option<Self>>, ClassError> {
+        let mut fits = Vec::with_capacity(count * count);
+        for (row, column) in (0..count * count).map(|pair| (pair / count, pair % count)) {
+            fits.push(database(row, column).map(|data| RadiationFit::new(&data)).transpose()?.flatten());
         }
-        let moved = |list: &[Matrix6<f64>]| list.iter().map(|m| moved_matrix(m, data.reference)).collect::<Vec<_>>();
-        let parts = if has_fitted_tail { INNER_PARTS } else { 1.0 };
-        let (mut frequencies, mut damping) = refined(&data.frequencies, &moved(&data.damping), parts);
-        let end = moved_matrix(end, data.reference);
-        // the damping of the tail without B_1 and B_2, and their shares in it
-        let mut shares = [vec![0.0; frequencies.len()], vec![0.0; frequencies.len()]];
-        let (reach, parts) = TAIL;
-        for n in 1..=parts {
-            let over = reach.powf(n as f64 / parts as f64);
-            let fall = if n < parts { over.powi(-3) } else { 0.0 };
-            let rise = 1.0 - over.powi(-2);
-            frequencies.push(last * over);
-            damping.push(end * (fall * (1.0 - rise).powi(2)));
-            for (shares, share) in shares.iter_mut().zip([2.0 * rise * (1.0 - rise), rise * rise]) {
-                shares.push(fall * share);
+        let is_determined = fits.iter().flatten().all(|fit| fit.is_determined);
+        let joined = |blocks: &[Matrix6<f64>]| {
+            if !is_determined {
+                return blocks.to_vec();
             }
-        }
-        let given = data.infinite.map(|given| moved_matrix(&given, data.reference));
-        let relation =
-            OgilvieRelation::new(&data.frequencies, &moved(&data.added_mass), (&frequencies, &damping, &shares));
-        let mut tail = [end; 2];
-        let mut free = None;
-        if data.frequencies.len() >= LEAST_FREQUENCIES {
-            free = Some(relation.fit(&[None; 2], None)[2]);
-            let [first, second, limit] = relation.fit(&[None; 2], given.as_ref());
-            let plain = relation.fit(&[Some(end); 2], given.as_ref())[2];
-            let (before, after) = (relation.misfit(&[end; 2], &plain), relation.misfit(&[first, second], &limit));
-            let explained = |fitted: &Matrix6<f64>| {
-                Matrix6::from_fn(|i, j| {
-                    let at = (i, j);
-                    if after[at] < EXPLAINED_SHARE * before[at] { fitted[at] } else { end[at] }
-                })
-            };
-            if has_fitted_tail {
-                tail[0] = positive_part(&explained(&first));
-                tail[1] = positive_part(&explained(&relation.fit(&[Some(tail[0]), None], given.as_ref())[1]));
+            let mut whole = DMatrix::zeros(6 * count, 6 * count);
+            for (pair, block) in blocks.iter().enumerate() {
+                whole.fixed_view_mut::<6, 6>(6 * (pair / count), 6 * (pair % count)).copy_from(block);
             }
-        }
-        let infinite = given.unwrap_or_else(|| relation.fit(&tail.map(Some), None)[2]);
-        for (share, matrix) in shares.iter().zip(&tail) {
-            damping.iter_mut().zip(share).for_each(|(damping, share)| *damping += matrix * *share);
-        }
-        let shift = given.zip(free).map(|(given, free)| relation.worst(&|i| free[(i, i)] - given[(i, i)]));
-        let quality = OgilvieQuality { stray: relation.stray(&tail, &infinite), shift };
-        let slopes = frequencies
-            .windows(2)
-            .zip(damping.windows(2))
-            .filter_map(|ends| match ends {
-                ([w0, w1], [b0, b1]) => Some((b1 - b0) / (w1 - w0)),
-                _ => None,
-            })
-            .collect();
-        Ok(Some(Radiation { frequencies, damping, slopes, infinite, quality }))
+            let whole = positive_part_of(&whole);
+            let block = |pair: usize| whole.fixed_view::<6, 6>(6 * (pair / count), 6 * (pair % count)).into_owned();
+            (0..count * count).map(block).collect::<Vec<Matrix6<f64>>>()
+        };
+        let of = |tail: &dyn Fn(usize, &RadiationFit) -> Matrix6<f64>| {
+            let all = fits.iter().enumerate();
+            let blocks: Vec<_> =
+                all.map(|(pair, fit)| fit.as_ref().map_or_else(Matrix6::zeros, |fit| tail(pair, fit))).collect();
+            joined(&blocks)
+        };
+        let first = of(&|_, fit| fit.first_tail());
+        let second = of(&|pair, fit| fit.second_tail(&first[pair]));
+        let tails = first.into_iter().zip(second);
+        Ok(fits.into_iter().zip(tails).map(|(fit, (one, two))| fit.map(|fit| fit.finish(&[one, two]))).collect())
     }
 
     /// The kernel at a time (N/m, N, N m): exact for damping that is straight between its frequencies (Filon).
@@ -208,8 +184,8 @@ impl Radiation {
 }
 
 /// Damping at zero, where it is nothing, at the frequencies of a source and between them, by the cubics of [STEFFEN-1990], which have no larger and no
-/// smaller values than their ends; straight between steps of the last frequency over `parts`.
-fn refined(frequencies: &[f64], damping: &[Matrix6<f64>], parts: f64) -> (Vec<f64>, Vec<Matrix6<f64>>) {
+/// smaller values than their ends; straight between steps of the last frequency over [`INNER_PARTS`].
+fn refined(frequencies: &[f64], damping: &[Matrix6<f64>]) -> (Vec<f64>, Vec<Matrix6<f64>>) {
     let places: Vec<f64> = std::iter::once(0.0).chain(frequencies.iter().copied()).collect();
     let values: Vec<Matrix6<f64>> = std::iter::once(Matrix6::zeros()).chain(damping.iter().copied()).collect();
     let secants: Vec<(f64, Matrix6<f64>)> = places
@@ -230,7 +206,7 @@ fn refined(frequencies: &[f64], damping: &[Matrix6<f64>], parts: f64) -> (Vec<f6
     });
     let ends = [secants.first(), secants.last()].map(|secant| secant.map_or_else(Matrix6::zeros, |secant| secant.1));
     let slopes: Vec<Matrix6<f64>> = std::iter::once(ends[0]).chain(inner).chain([ends[1]]).collect();
-    let step = places.last().copied().unwrap_or_default() / parts;
+    let step = places.last().copied().unwrap_or_default() / INNER_PARTS;
     let (mut made, mut list) = (vec![0.0], vec![Matrix6::zeros()]);
     for ((w, b), s) in places.windows(2).zip(values.windows(2)).zip(slopes.windows(2)) {
         let ([w0, w1], [b0, b1], [s0, s1]) = (w, b, s) else { continue };
@@ -269,6 +245,101 @@ fn relation_weights(frequencies: &[f64], w: f64) -> Vec<f64> {
 
 fn weighted_sum(weights: &[f64], list: &[Matrix6<f64>]) -> Matrix6<f64> {
     weights.iter().zip(list).map(|(weight, matrix)| matrix * *weight).sum()
+}
+
+/// The damping of a source, and what its added mass says of that beyond the last frequency.
+struct RadiationFit {
+    frequencies: Vec<f64>,
+    /// Damping without B_1 and B_2.
+    damping: Vec<Matrix6<f64>>,
+    /// The shares of B_1 and B_2 in it.
+    shares: [Vec<f64>; 2],
+    /// At the last frequency of the source.
+    end: Matrix6<f64>,
+    given: Option<Matrix6<f64>>,
+    relation: OgilvieRelation,
+    /// Whether there are frequencies enough for a fit.
+    is_determined: bool,
+}
+
+impl RadiationFit {
+    fn new(data: &Database) -> Result<Option<Self>, ClassError> {
+        let (Some(last), Some(end)) = (data.frequencies.last(), data.damping.last()) else { return Ok(None) };
+        if data.frequencies.len() < 2 {
+            let text = format!("the database ({}) has one frequency only: its radiation has no memory", data.source);
+            return Err(ClassError::new(text));
+        }
+        let moved = |list: &[Matrix6<f64>]| list.iter().map(|m| moved_matrix(m, data.reference)).collect::<Vec<_>>();
+        let (mut frequencies, mut damping) = refined(&data.frequencies, &moved(&data.damping));
+        let end = moved_matrix(end, data.reference);
+        let mut shares = [vec![0.0; frequencies.len()], vec![0.0; frequencies.len()]];
+        let (reach, parts) = TAIL;
+        for n in 1..=parts {
+            let over = reach.powf(n as f64 / parts as f64);
+            let fall = if n < parts { over.powi(-3) } else { 0.0 };
+            let rise = 1.0 - over.powi(-2);
+            frequencies.push(last * over);
+            damping.push(end * (fall * (1.0 - rise).powi(2)));
+            for (shares, share) in shares.iter_mut().zip([2.0 * rise * (1.0 - rise), rise * rise]) {
+                shares.push(fall * share);
+            }
+        }
+        let given = data.infinite.map(|given| moved_matrix(&given, data.reference));
+        let relation =
+            OgilvieRelation::new(&data.frequencies, &moved(&data.added_mass), (&frequencies, &damping, &shares));
+        let is_determined = data.frequencies.len() >= LEAST_FREQUENCIES;
+        Ok(Some(RadiationFit { frequencies, damping, shares, end, given, relation, is_determined }))
+    }
+
+    /// What a fit explains of the added mass, else the damping at the last frequency, with which the tail falls as 1/w3.
+    fn explained(&self, fitted: &Matrix6<f64>) -> Matrix6<f64> {
+        let given = self.given.as_ref();
+        let [first, second, limit] = self.relation.fit(&[None; 2], given);
+        let plain = self.relation.fit(&[Some(self.end); 2], given)[2];
+        let (before, after) =
+            (self.relation.misfit(&[self.end; 2], &plain), self.relation.misfit(&[first, second], &limit));
+        Matrix6::from_fn(|i, j| {
+            let at = (i, j);
+            if after[at] < EXPLAINED_SHARE * before[at] { fitted[at] } else { self.end[at] }
+        })
+    }
+
+    /// B_1.
+    fn first_tail(&self) -> Matrix6<f64> {
+        if !self.is_determined {
+            return self.end;
+        }
+        self.explained(&self.relation.fit(&[None; 2], self.given.as_ref())[0])
+    }
+
+    /// B_2 beside a B_1.
+    fn second_tail(&self, first: &Matrix6<f64>) -> Matrix6<f64> {
+        if !self.is_determined {
+            return self.end;
+        }
+        self.explained(&self.relation.fit(&[Some(*first), None], self.given.as_ref())[1])
+    }
+
+    /// The radiation with B_1 and B_2.
+    fn finish(self, tail: &[Matrix6<f64>; 2]) -> Radiation {
+        let RadiationFit { frequencies, mut damping, shares, given, relation, is_determined, .. } = self;
+        let infinite = given.unwrap_or_else(|| relation.fit(&tail.map(Some), None)[2]);
+        for (share, matrix) in shares.iter().zip(tail) {
+            damping.iter_mut().zip(share).for_each(|(damping, share)| *damping += matrix * *share);
+        }
+        let free = is_determined.then(|| relation.fit(&[None; 2], None)[2]);
+        let shift = given.zip(free).map(|(given, free)| relation.worst(&|i| free[(i, i)] - given[(i, i)]));
+        let quality = OgilvieQuality { stray: relation.stray(tail, &infinite), shift };
+        let slopes = frequencies
+            .windows(2)
+            .zip(damping.windows(2))
+            .filter_map(|ends| match ends {
+                ([w0, w1], [b0, b1]) => Some((b1 - b0) / (w1 - w0)),
+                _ => None,
+            })
+            .collect();
+        Radiation { frequencies, damping, slopes, infinite, quality }
+    }
 }
 
 /// Ogilvie's relation at the frequencies of a source: what its added mass leaves for that at infinite frequency and for a tail.
@@ -384,25 +455,33 @@ impl OgilvieRelation {
 
 /// A matrix of damping without what would give energy: of its symmetric part diagonals that are not negative, no pair above their geometric mean, no
 /// negative eigenvalue. The rest, which coarse panels leave, does no work.
-fn positive_part(matrix: &Matrix6<f64>) -> Matrix6<f64> {
+fn positive_part_of(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let count = matrix.nrows();
     let sizes = matrix.diagonal().map(|own| own.max(0.0).sqrt());
-    let shares = Matrix6::from_fn(|i, j| {
+    let shares = DMatrix::from_fn(count, count, |i, j| {
         let size = sizes[i] * sizes[j];
         if size > 0.0 { (0.5 * (matrix[(i, j)] + matrix[(j, i)]) / size).clamp(-1.0, 1.0) } else { 0.0 }
     });
-    let whole = |shares: &Matrix6<f64>| {
-        Matrix6::from_fn(|i, j| {
+    let whole = |shares: &DMatrix<f64>| {
+        DMatrix::from_fn(count, count, |i, j| {
             let size = sizes[i] * sizes[j];
             let idle = if size > 0.0 { 0.5 * (matrix[(i, j)] - matrix[(j, i)]) } else { 0.0 };
             shares[(i, j)] * size + idle
         })
     };
-    let Ok(eigen) = SymmetricEigen::new(shares, &never) else { return whole(&Matrix6::identity()) };
+    let Ok(eigen) = SymmetricEigen::new(shares.clone(), &never) else {
+        return whole(&DMatrix::identity(count, count));
+    };
     if eigen.values.min() >= 0.0 {
         return whole(&shares);
     }
-    let values = Matrix6::from_diagonal(&eigen.values.map(|value| value.max(0.0)));
-    let clipped = eigen.vectors * values * eigen.vectors.transpose();
+    let values = DMatrix::from_diagonal(&eigen.values.map(|value| value.max(0.0)));
+    let clipped = &eigen.vectors * values * eigen.vectors.transpose();
     let diagonal = clipped.diagonal().map(|own| if own > 0.0 { own.sqrt().recip() } else { 0.0 });
-    whole(&Matrix6::from_fn(|i, j| clipped[(i, j)] * diagonal[i] * diagonal[j]))
+    whole(&DMatrix::from_fn(count, count, |i, j| clipped[(i, j)] * diagonal[i] * diagonal[j]))
+}
+
+/// As [`positive_part_of`], of one body.
+fn positive_part(matrix: &Matrix6<f64>) -> Matrix6<f64> {
+    positive_part_of(&DMatrix::from_fn(6, 6, |i, j| matrix[(i, j)])).fixed_view::<6, 6>(0, 0).into_owned()
 }

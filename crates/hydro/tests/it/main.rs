@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod aqwa_tether_spectrum;
+mod body_groups;
 mod combination;
 mod hemisphere;
 mod hydro_databases;

@@ -9,14 +9,13 @@ use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
-use windlass_hydro::database::interaction::interaction_radiation;
-use windlass_hydro::database::radiation::Radiation;
+use windlass_hydro::database::interaction::{interaction_radiations, own_radiation};
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
 use windlass_hydro::{Category, in_pose};
 use windlass_model::{
-    Amplitudes, AttachedDatabase, ClassError, Database, DriftMethod, DriftTable, LoadKind, Model, Part, PartLoad,
+    Amplitudes, AttachedDatabase, Body, ClassError, Database, DriftMethod, DriftTable, LoadKind, Model, Part, PartLoad,
     Piece, TimeStep, WaveAction,
 };
 
@@ -97,10 +96,8 @@ impl LinearInteraction {
     fn all(model: &Model, system: &System) -> Result<Vec<Self>, SolveError> {
         let number = |key: &str| system.nodes.iter().position(|node| node.key == key);
         let mut list = Vec::new();
-        for pair in model.interactions() {
+        for (pair, data, radiation) in interaction_radiations(model).map_err(SolveError::new)? {
             let (Some(on), Some(by)) = (number(pair.on.0), number(pair.by.0)) else { continue };
-            let found = interaction_radiation(&pair).map_err(SolveError::error_about(&pair.on.1.name))?;
-            let Some((data, radiation)) = found else { continue };
             let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
             list.push(LinearInteraction { on, by, data, infinite: radiation.infinite, factor });
         }
@@ -109,8 +106,9 @@ impl LinearInteraction {
 }
 
 impl Floats {
-    fn new(model: &Model, name: &str, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
-        let infinite = Radiation::new(&attached.data)?.map_or_else(Matrix6::zeros, |r| r.infinite);
+    fn new(model: &Model, body: &Body, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
+        let name = &body.name;
+        let infinite = own_radiation(model, body)?.map_or_else(Matrix6::zeros, |r| r.infinite);
         let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
             .map(|category| model.multipliers.factor(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
@@ -136,8 +134,8 @@ impl LinearSystem {
                 let text = "its motion is given in time: the frequency domain has none for it";
                 return Err(SolveError::error_about(&node.name)(ClassError::new(text)));
             }
-            let attached = model.bodies.get(&node.key).and_then(|b| b.database.as_ref());
-            let made = attached.map(|a| Floats::new(model, &node.name, a, pose)).transpose();
+            let attached = model.bodies.get(&node.key).and_then(|body| Some((body, body.database.as_ref()?)));
+            let made = attached.map(|(body, attached)| Floats::new(model, body, attached, pose)).transpose();
             let made = made.map_err(SolveError::error_about(&node.name))?;
             if let Some(made) = &made {
                 let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose)
