@@ -9,6 +9,7 @@ use super::stored::{SOURCE, StoreError};
 use nalgebra::{DMatrix, Matrix3, Vector3};
 use netcdf3::{DataSet, FileWriter, Version};
 use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
+use windlass_hydro::database::capytaine::DRIFT_METHOD;
 
 /// Names of the motions, as Capytaine has them.
 const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
@@ -38,8 +39,9 @@ pub struct FileBody {
 pub struct BodyDrift {
     /// By heading and body: surge, sway and yaw over the square of the wave amplitude, about the origin of the body (N/m2, N/m).
     pub values: Vec<Vec<[f64; 3]>>,
-    /// Of several bodies, heading by heading: the sum of their forces, and that by the waves far away (N/m2).
-    pub sums: Vec<[[f64; 2]; 2]>,
+    /// Of several bodies, heading by heading: the sum of their forces along x and y and of their moments about the vertical through the origin over the distance of
+    /// the farthest body, and those by the waves far away (N/m2); none where both are not found apart from each other.
+    pub sums: Vec<[[f64; 3]; 2]>,
 }
 
 /// What a file holds: along the axes of the first body's heading, z up from the water level, SI and radians.
@@ -64,6 +66,8 @@ pub struct PressureFile<'a> {
     /// Of a body alone: where its drift is largest, the number of the frequency, and the difference there of that by the waves far away from that by a
     /// control surface, over the largest.
     pub drift_check: Option<(usize, f64)>,
+    /// How the mean drift of each body was found.
+    pub drift_methods: &'a [String],
     /// What mesh and settings make it.
     pub key: &'a str,
 }
@@ -165,17 +169,17 @@ impl PressureFile<'_> {
                 let values = drift.iter().flat_map(|own| own.values.iter().flatten().flatten()).copied().collect();
                 let places = ["frequency", "wave_direction", "body", "component"];
                 made.numbers("mean_drift", &places, "N/m2, N/m", "mean drift in surge, sway and yaw", values)?;
-                let (text, differences) = if alone {
+                made.set.add_global_attr_string(DRIFT_METHOD, self.drift_methods.join("\n")).map_err(to_store_error)?;
+                if alone {
                     let checked =
                         |i: usize| self.drift_check.filter(|(at, _)| *at == i).map_or(f64::NAN, |(_, off)| off);
                     let text = "largest difference of the drift by a control surface from that far away, over the largest, where that is";
-                    (text, (0..self.forces.len()).map(checked).collect())
-                } else {
-                    let text =
-                        "largest difference of the sum of the bodies' drift from that far away, over the largest";
-                    (text, drift_differences(drift))
-                };
-                made.numbers("drift_difference", &["frequency"], "1", text, differences)?;
+                    let differences = (0..self.forces.len()).map(checked).collect();
+                    made.numbers("drift_difference", &["frequency"], "1", text, differences)?;
+                } else if drift.iter().any(|own| !own.sums.is_empty()) {
+                    let text = "largest difference of the sum of the bodies' drift, forces and moments over the distance of the bodies, from that far away, over the largest force";
+                    made.numbers("drift_difference", &["frequency"], "1", text, drift_differences(drift))?;
+                }
             }
             Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
         }
@@ -199,10 +203,13 @@ impl PressureFile<'_> {
 
 /// Frequency by frequency, over the largest force of all.
 fn drift_differences(drift: &[BodyDrift]) -> Vec<f64> {
-    let size = |[x, y]: [f64; 2]| x.hypot(y);
-    let largest = drift.iter().flat_map(|own| &own.sums).map(|[_, far]| size(*far)).fold(0.0, f64::max);
+    let largest = drift.iter().flat_map(|own| &own.sums).map(|[_, far]| far[0].hypot(far[1])).fold(0.0, f64::max);
     let of = |own: &BodyDrift| {
-        let off = own.sums.iter().map(|[sum, far]| size([sum[0] - far[0], sum[1] - far[1]]));
+        let differ = |[sum, far]: &[[f64; 3]; 2]| {
+            let [x, y, moment] = [0, 1, 2].map(|i| sum[i] - far[i]);
+            x.hypot(y).max(moment.abs())
+        };
+        let off = own.sums.iter().map(differ);
         if largest > 0.0 { off.fold(0.0, f64::max) / largest } else { 0.0 }
     };
     drift.iter().map(of).collect()

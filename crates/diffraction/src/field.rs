@@ -9,7 +9,7 @@ use crate::wave_solution::WaveSolution;
 use crate::wave_system::WaveKernel;
 use nalgebra::{Complex, Vector3};
 use rayon::prelude::*;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::LazyLock;
 
 type C = Complex<f64>;
@@ -66,6 +66,8 @@ pub struct ControlSurfaceDrift {
 
 /// Distance of a control surface from the bodies over their extent.
 const CONTROL_SHARE: f64 = 0.25;
+/// Directions that a control box is tried in, over a quarter of a turn.
+const BOX_DIRECTIONS: usize = 18;
 /// Most rules along a side of a control surface.
 const MAX_PIECES: usize = 40;
 
@@ -402,6 +404,22 @@ impl DiffractionProblem {
     /// A control surface around one of the bodies, with sides along a heading (rad) and its opposite: at a distance of a quarter of its extent, or
     /// half way to the nearest other body. None where another body is beside it within the rectangle of its waterline.
     pub fn control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
+        self.box_and_gap(body, heading).map(|(made, _)| made)
+    }
+
+    /// As [`DiffractionProblem::control_box`], and where none fits along the heading, turned to where it is farthest from the hulls. None where a body is within the
+    /// rectangle of another in all directions, as one in a dock or one above another.
+    pub fn turned_control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
+        let turned = || {
+            let of = |step: usize| self.box_and_gap(body, heading + step as f64 * FRAC_PI_2 / BOX_DIRECTIONS as f64);
+            // the first of equals
+            (1..BOX_DIRECTIONS).filter_map(of).reduce(|best, other| if other.1 > best.1 { other } else { best })
+        };
+        self.box_and_gap(body, heading).or_else(turned).map(|(made, _)| made)
+    }
+
+    /// A control box and its distance from the hulls (m).
+    fn box_and_gap(&self, body: usize, heading: f64) -> Option<(ControlBox, f64)> {
         let corners = |which: usize| self.body_corners(which);
         let (sine, cosine) = heading.sin_cos();
         let axes = |at: &Vector3<f64>| [at.x * cosine + at.y * sine, at.y * cosine - at.x * sine];
@@ -424,7 +442,7 @@ impl DiffractionProblem {
         }
         let centre = [middle[0] * cosine - middle[1] * sine, middle[0] * sine + middle[1] * cosine];
         let depth = self.control_depth(draught + gap.max(CONTROL_SHARE * half[0].min(half[1])));
-        (gap > 0.0).then_some(ControlBox { centre, half: half.map(|half| half + gap), heading, depth })
+        (gap > 0.0).then_some((ControlBox { centre, half: half.map(|half| half + gap), heading, depth }, gap))
     }
 
     /// A depth of a control surface (m), on the bottom where that is near.

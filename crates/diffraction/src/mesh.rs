@@ -3,7 +3,7 @@
 use crate::error::DiffractionError;
 use crate::panel::Panel;
 use crate::rankine::mirrored;
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 /// How far above the mean level a corner may be, as a share of its panel's diagonal: rounding of a cut.
 const LEVEL_SHARE: f64 = 1e-6;
@@ -84,6 +84,20 @@ impl HullMesh {
         let hull: Vec<Panel> = self.hull().to_vec();
         let lid = crate::lid::close_waterplane(&hull, self.mirrors)?;
         HullMesh::from_panels(hull, lid, self.mirrors).ok()
+    }
+
+    /// The same hull with its lid, turned about the vertical through its origin (rad) and then moved (m), along mirror planes or where it has none.
+    ///
+    /// # Errors
+    /// Panels that are no longer finite.
+    pub fn moved(&self, turn: f64, shift: Vector3<f64>) -> Result<Self, DiffractionError> {
+        let axes = Rotation3::from_axis_angle(&Vector3::z_axis(), turn);
+        let place = |(i, panel): (usize, &Panel)| {
+            Panel::new(panel.corners().map(|corner| axes * corner + shift)).ok_or(DiffractionError::FlatPanel(i + 1))
+        };
+        let mut hull = self.panels.iter().enumerate().map(place).collect::<Result<Vec<_>, _>>()?;
+        let lid = hull.split_off(self.hull_count);
+        HullMesh::from_panels(hull, lid, self.mirrors)
     }
 
     /// The panels of the hull.

@@ -117,7 +117,7 @@ pub fn table(
             list.push(made.interpolate(toward - PI).0.into());
         }
     }
-    Ok(DriftTable { frequencies, headings, values })
+    Ok(DriftTable { frequencies, headings, values, method: None })
 }
 
 impl BodyLoad for DriftLoad {

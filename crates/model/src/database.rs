@@ -103,6 +103,8 @@ pub struct DriftTable {
     pub headings: Vec<f64>,
     /// By heading, then frequency.
     pub values: Vec<Vec<[f64; 6]>>,
+    /// How the panels gave it, in words: none of a source that was read.
+    pub method: Option<String>,
 }
 
 /// Difference-frequency forces of pairs of waves of one heading: `F(t) = Re sum_ij Q_ij a_i conj(a_j) exp(-i (w_i - w_j) t)`

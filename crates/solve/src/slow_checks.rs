@@ -44,6 +44,16 @@ pub fn light_slow_modes(run: &Run) -> Vec<LightMode> {
         .collect()
 }
 
+/// How the mean drift of the drifting bodies was found by panels, in a sentence each; nothing of those whose coefficients were read.
+pub fn drift_methods(run: &Run) -> Vec<String> {
+    let method = |name: &str| {
+        let attached = run.model.bodies.get(&Model::key(name))?.database.as_ref()?;
+        let drift = attached.data.drift.as_ref().filter(|_| attached.drift != DriftMethod::None)?;
+        Some(format!("the mean drift of {name} was found {}", drift.method.as_ref()?))
+    };
+    run.drifting_bodies().filter_map(method).collect()
+}
+
 /// What a run with slow drift is warned of.
 pub fn warnings_of_slow_drift(run: &Run) -> Vec<String> {
     let mut list: Vec<String> = light_slow_modes(run)

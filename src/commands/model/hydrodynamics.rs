@@ -17,6 +17,7 @@ use nalgebra::{Complex, Matrix6, Vector3};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use windlass_base::choice::YesNo;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Place;
 use windlass_base::span::Span;
@@ -118,9 +119,10 @@ const WITH: OptionSpec = OptionSpec::ours(
 .repeating(1);
 const MEAN_DRIFT: OptionSpec = OptionSpec::ours(
     "-MEAN_DRIFT",
-    &[],
-    "finds the mean drift of each of several bodies too, by a control surface around it, which takes longer than all else",
-);
+    &[ValueSpec::choice::<YesNo>("YES/NO", "NO leaves it out").or("YES")],
+    "finds the mean drift of each body: of several by a control surface around each",
+)
+.default("YES");
 const CHECK: OptionSpec = OptionSpec::ours(
     "-CHECK",
     &[],
@@ -160,8 +162,9 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
              Mirror planes of a single hull are found and used. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
              irregular frequencies away; a moonpool stays open. -WITH solves several bodies together: each gets a database with the \
              radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
-             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. A body alone has its mean drift, by the waves far away and with the motions \
-             that its mass, stiffness, moorings and damping give it now: G_MDRIFT finds it anew after these have changed. Roll has the damping of radiated waves \
+             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. Mean drift is found with the motions that mass, stiffness, moorings and damping give the bodies now: of a body alone by the waves far away (G_MDRIFT finds it anew \
+             after these have changed), of several by a control surface around each; where none fits around one of them it has what the drifts of the others leave of that of the waves far \
+             away, which is said. -MEAN_DRIFT NO leaves it out. Roll has the damping of radiated waves \
              alone: #DAMP adds what eddies take. Exciting forces are those of Haskind's relation; the report has the panels of a wave length and the largest difference of the forces by pressure from \
              them, which measures the mesh. The drift of a body alone is checked by a control surface where it is largest; a difference above 5 % of the largest, of several bodies of \
              their sum from the waves far away, is warned of with the size of panels that would agree. What was computed is written beside the answers, BODY.nc in the layout of Capytaine, and is taken from there by a run with the same mesh, \
@@ -356,7 +359,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             periods: job.model.wave_defaults.periods.clone(),
             size: length(&PANEL),
             depth: length(&WATER_DEPTH),
-            has_drift: names.len() == 1 || args.has(&MEAN_DRIFT),
+            has_drift: args.option(&MEAN_DRIFT).is_none_or(Given::is_on),
             is_checked: args.has(&CHECK),
             kept: None,
             span,

@@ -1,7 +1,8 @@
 //! Mean drift of bodies by their panels, with the motions that their mass, stiffness, moorings and damping give them where they stand; `G_MDRIFT`
 //! makes it anew.
 //!
-//! Of several bodies each has a control surface of its own. The drift of a body alone is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
+//! Of several bodies each has a control surface of its own; the one that none fits around, as a dock around a barge, has what the drifts of the others leave of that of
+//! the waves far away. The drift of a body alone is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
 //! how far both agree.
 
 use crate::commands::Job;
@@ -27,6 +28,11 @@ use windlass_solve::frequency::{LinearSystem, Motions};
 /// Far field and control surface that differ by more than this share of the largest drift are warned of.
 pub const POOR_AGREEMENT: f64 = 0.05;
 
+/// How mean drift is found: of a body alone, of several bodies, and of the one of them that no control surface fits around.
+const BY_FAR_FIELD: &str = "by the waves far away";
+const BY_SURFACE: &str = "by a control surface around it";
+const BY_REST: &str = "by the waves far away from all bodies, less the drift of the others, as no control surface around it leaves them outside";
+
 /// What of the largest force is rounding.
 const ROUNDING_SHARE: f64 = 1e-6;
 /// What of the largest drift of a database is nothing: planes of symmetry.
@@ -45,11 +51,19 @@ pub enum DriftSource {
 }
 
 impl DriftSource {
-    /// What a report says of it.
-    pub fn said(&self, meshed: &MeshedBodies) -> String {
-        let (way, who) = match meshed.bodies.len() {
-            1 => ("by the waves far away", "the body"),
-            _ => ("by a control surface around each body", "the bodies"),
+    /// What a report says of it, with how the drift of each body was found.
+    pub fn said(&self, meshed: &MeshedBodies, databases: &[Database]) -> String {
+        let method = |data: &Database| data.drift.as_ref().and_then(|drift| drift.method.clone()).unwrap_or_default();
+        let methods: Vec<String> = databases.iter().map(method).collect();
+        let (way, who) = match methods.as_slice() {
+            [only] => (only.clone(), "the body"),
+            list if list.iter().all(|own| own == BY_SURFACE) => {
+                ("by a control surface around each body".to_owned(), "the bodies")
+            }
+            list => {
+                let of = |(body, own): (&MeshedBody, &String)| format!("{} {own}", body.name);
+                (meshed.bodies.iter().zip(list).map(of).collect::<Vec<_>>().join("; "), "the bodies")
+            }
         };
         match self {
             DriftSource::Motions(_) => format!("{way}, of {who} in motion"),
@@ -62,7 +76,7 @@ impl DriftSource {
 /// The motions of bodies that are meshed; none where drift is not asked for.
 pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSource {
     if !is_asked {
-        return DriftSource::None("-MEAN_DRIFT finds it by a control surface around each body".into());
+        return DriftSource::None("-MEAN_DRIFT NO".into());
     }
     let is_held = |body: &MeshedBody| model.bodies.get(&body.key).is_some_and(|body| body.ignored.len() >= MOTIONS);
     if meshed.bodies.iter().all(is_held) {
@@ -107,19 +121,37 @@ pub fn numbers(source: &DriftSource, meshed: &MeshedBodies, headings: &[f64]) ->
     list
 }
 
-/// A control surface around each of several bodies; none around a body alone, whose waves far away tell its drift.
+/// A control surface around each of several bodies, none around one that it cannot leave the others outside of; none around a body alone, whose waves far away
+/// tell its drift.
 ///
 /// # Errors
-/// Bodies too near each other, in words.
-pub fn surfaces(meshed: &MeshedBodies, problem: &DiffractionProblem) -> Result<Vec<ControlSurface>, String> {
+/// More than one body without such a surface, in words.
+pub fn surfaces(meshed: &MeshedBodies, problem: &DiffractionProblem) -> Result<Vec<Option<ControlSurface>>, String> {
     if meshed.bodies.len() == 1 {
         return Ok(Vec::new());
     }
-    let around = |(i, body): (usize, &MeshedBody)| {
-        let made = problem.control_box(i, body.turn).map(ControlSurface::Box);
-        made.ok_or_else(|| format!("no upright box fits around {} that leaves the others outside", body.name))
-    };
-    meshed.bodies.iter().enumerate().map(around).collect()
+    let around = |(i, body): (usize, &MeshedBody)| problem.turned_control_box(i, body.turn).map(ControlSurface::Box);
+    let made: Vec<_> = meshed.bodies.iter().enumerate().map(around).collect();
+    let without: Vec<&str> = meshed
+        .bodies
+        .iter()
+        .zip(&made)
+        .filter(|(_, surface)| surface.is_none())
+        .map(|(body, _)| body.name.as_str())
+        .collect();
+    if without.len() > 1 {
+        let names = without.join(", ");
+        return Err(format!("no upright box fits around each of {names} that leaves the other bodies outside"));
+    }
+    Ok(made)
+}
+
+/// How the drift of each body is found.
+pub fn methods(surfaces: &[Option<ControlSurface>]) -> Vec<String> {
+    match surfaces {
+        [] => vec![BY_FAR_FIELD.to_owned()],
+        list => list.iter().map(|own| if own.is_some() { BY_SURFACE } else { BY_REST }.to_owned()).collect(),
+    }
 }
 
 /// The drift of a frequency; none where there is no source.
@@ -129,7 +161,7 @@ pub fn surfaces(meshed: &MeshedBodies, problem: &DiffractionProblem) -> Result<V
 pub fn of_frequency(
     source: &DriftSource,
     meshed: &MeshedBodies,
-    surfaces: &[ControlSurface],
+    surfaces: &[Option<ControlSurface>],
     waves: &WaveSolution,
     headings: &[f64],
 ) -> Result<Option<BodyDrift>, String> {
@@ -139,21 +171,41 @@ pub fn of_frequency(
     if meshed.bodies.len() == 1 {
         return Ok(Some(of_body_alone(&far)));
     }
-    let mut values = vec![Vec::new(); headings.len()];
-    let mut sums: Vec<[[f64; 2]; 2]> = far.iter().map(|far| [[0.0; 2], [far.surge, far.sway]]).collect();
+    // force, and moment about the vertical through the origin of the group
+    let mut sums = vec![[0.0; 3]; headings.len()];
+    let mut found: Vec<Option<Vec<[f64; 3]>>> = Vec::new();
     for (body, surface) in meshed.bodies.iter().zip(surfaces) {
-        let found = waves.control_surface_drift(&motions, surface);
-        let found = found.ok_or_else(|| format!("the control surface around {} crosses a hull", body.name))?;
+        let Some(surface) = surface else {
+            found.push(None);
+            continue;
+        };
+        let drifts = waves.control_surface_drift(&motions, surface);
+        let drifts = drifts.ok_or_else(|| format!("the control surface around {} crosses a hull", body.name))?;
         let [x, y] = surface.centre();
-        for ((own, sum), drift) in values.iter_mut().zip(&mut sums).zip(found) {
-            let ControlSurfaceDrift { surge, sway, yaw } = drift;
-            // from the middle of the surface to the origin of the body
-            own.push([surge, sway, yaw + (x - body.origin.x) * sway - (y - body.origin.y) * surge]);
-            sum[0][0] += surge;
-            sum[0][1] += sway;
+        let own: Vec<[f64; 3]> =
+            drifts.iter().map(|own| [own.surge, own.sway, own.yaw + x * own.sway - y * own.surge]).collect();
+        for (sum, own) in sums.iter_mut().zip(&own) {
+            (0..3).for_each(|i| sum[i] += own[i]);
         }
+        found.push(Some(own));
     }
-    Ok(Some(BodyDrift { values, sums }))
+    let of_far = |far: &FarFieldDrift| [far.surge, far.sway, far.yaw];
+    let rest = || far.iter().zip(&sums).map(|(far, sum)| [0, 1, 2].map(|i| of_far(far)[i] - sum[i])).collect();
+    let is_whole = found.iter().all(Option::is_some);
+    let found: Vec<Vec<[f64; 3]>> = found.into_iter().map(|own| own.unwrap_or_else(rest)).collect();
+    let values = (0..headings.len())
+        .map(|heading| {
+            let about_own = |(body, own): (&MeshedBody, &Vec<[f64; 3]>)| {
+                let [x, y, moment] = own.get(heading).copied().unwrap_or_default();
+                [x, y, moment - body.origin.x * y + body.origin.y * x]
+            };
+            meshed.bodies.iter().zip(&found).map(about_own).collect()
+        })
+        .collect();
+    let lever = meshed.bodies.iter().map(|body| body.origin.x.hypot(body.origin.y)).fold(0.0, f64::max);
+    let over_lever = |[x, y, moment]: [f64; 3]| [x, y, if lever > 0.0 { moment / lever } else { 0.0 }];
+    let sums = far.iter().zip(sums).map(|(far, sum)| [over_lever(sum), over_lever(of_far(far))]);
+    Ok(Some(BodyDrift { values, sums: if is_whole { sums.collect() } else { Vec::new() } }))
 }
 
 /// Where the drift of a body alone is largest: the number of the frequency, and the largest difference over all headings of the drift by the waves far away
@@ -455,6 +507,7 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
         frequencies: meshed.frequencies.clone(),
         values: by_heading(&request.headings, &headings, &drifts),
         headings,
+        method: Some(BY_FAR_FIELD.to_owned()),
     };
     let largest = rows.iter().map(|row: &DriftRow| row.far[0].hypot(row.far[1])).fold(0.0, f64::max);
     let worst = rows.iter().map(|row| row.difference).fold(0.0, f64::max);

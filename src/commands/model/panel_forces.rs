@@ -203,16 +203,12 @@ impl MeshedBodies {
             let turn = body.position.turn[2] - heading;
             let [x, y] = if alone { [0.0; 2] } else { shift_of(body) };
             let shift = Vector3::new(x, y, 0.0);
-            let axes = Rotation3::from_axis_angle(&Vector3::z_axis(), turn);
             // of panels larger than the hull one a face is left
-            let mut quads = hull.panels(of_hull(&hull).min(hull.longest_side()), [mirrors.x, mirrors.y]);
-            if !alone {
-                for corner in quads.iter_mut().flatten() {
-                    *corner = axes * *corner + shift;
-                }
-            }
+            let quads = hull.panels(of_hull(&hull).min(hull.longest_side()), [mirrors.x, mirrors.y]);
             let plain = HullMesh::new(&quads, mirrors).map_err(open)?;
+            // strips of the lid lie along the body
             let (mesh, has_lid) = plain.with_lid().map_or((plain, false), |mesh| (mesh, true));
+            let mesh = if alone { mesh } else { mesh.moved(turn, shift).map_err(open)? };
             let volume = mesh.volumes()[2].abs() * images;
             let origin = shift + Vector3::new(0.0, 0.0, hull.origin_height);
             let (panels, lid_panels) = (mesh.hull().len(), mesh.lid().len());
@@ -429,7 +425,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         }
     }
     let made = databases.clone();
-    let table = report(&meshed, &quality, (&drift.said(&meshed), &made));
+    let table = report(&meshed, &quality, (&drift.said(&meshed, &made), &made));
     for (body, data) in meshed.bodies.iter().zip(databases) {
         take_hull(&mut job.model, body);
         let attached = AttachedDatabase {
@@ -447,7 +443,9 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     for text in panel_drift::roll_warnings(&job.model, &drift, &meshed, &made) {
         job.warn(text, span);
     }
-    if let DriftSource::None(why) = &drift {
+    if let DriftSource::None(why) = &drift
+        && request.has_drift
+    {
         job.warn(format!("{all}: mean drift is left out: {why}"), span);
     }
     job.say_tables(&[table]);
@@ -543,6 +541,7 @@ fn solve(
         infinite: &infinite,
         drift,
         drift_check,
+        drift_methods: &panel_drift::methods(&surfaces),
         key,
     };
     file.bytes().map_err(|error| Diagnostic::error(format!("{all}: {error}"), span))
@@ -730,7 +729,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     if quality.drift.is_some() {
         table.note(match meshed.bodies.len() {
             1 => "Drift: difference of the mean drift by a control surface from that of the waves far away, which acts, per cent of the largest, at the period of that",
-            _ => "Drift: largest difference of the sum of the bodies' drift from that of the waves far away, per cent of the largest",
+            _ => "Drift: largest difference of the sum of the bodies' drift in surge, sway and yaw (over the distance of the bodies) from that of the waves far away, per cent of the largest force",
         });
     }
     table

@@ -493,6 +493,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Err(Some(reason)) = &screening {
         first.note(format!("the quasi-static lines are not replayed as dynamic lines: {reason}"));
     }
+    for text in slow_checks::drift_methods(&made) {
+        first.note(text);
+    }
     let screening = screening.unwrap_or_default();
     first.add_notes(screening::remarks(&screening, job.units));
     let mut tables = vec![first];

@@ -517,7 +517,7 @@ fn check_of_panels_shows_change_with_finer_mesh() {
 #[test]
 fn drift_of_each_of_two_barges_adds_up_to_waves_far_away() {
     // the momentum through a box around each against Kochin's function of both
-    let (session, text) = two_barges(0.0, "-PERIOD 6 8 -HEADING 225 -PANEL 2 -MEAN_DRIFT", "");
+    let (session, text) = two_barges(0.0, "-PERIOD 6 8 -HEADING 225 -PANEL 2", "");
     let from = text.find("Drift: largest difference of the sum").unwrap_or_else(|| panic!("{text}"));
     let rows: Vec<Vec<f64>> = text[..from]
         .lines()
@@ -529,6 +529,30 @@ fn drift_of_each_of_two_barges_adds_up_to_waves_far_away() {
         let data = session.job.model.bodies[name].database.as_ref().unwrap().data.clone();
         assert!(data.drift.as_ref().is_some_and(|drift| drift.values[0].iter().any(|six| six[1].abs() > 0.0)));
     }
+}
+
+#[test]
+fn body_around_another_has_rest_of_drift_and_run_in_time_says_so() {
+    // two pontoons 24 m apart are one body with a barge between them, of three planes of symmetry: an upright box fits around the barge alone
+    let hulls = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY PAIR\n*G 0 0 0\n#WEIGHT *G 15434 9 6 10\n#DAMP *G 99 99 0 2E4\n&SURFACE\nBLOCK P -12 6 -4 12 14 4\nBLOCK S -12 -14 -4 12 -6 4\nEND_&SURFACE\n\
+                 &DESCRIBE BODY MID\n*H 0 0 0\n#WEIGHT *H 1929 2 2 2\n#DAMP *H 99 99 0 2E3\n&SURFACE\nBLOCK H -6 -2 -4 6 2 4\nEND_&SURFACE\nEND\n";
+    let asked = "HYDRODYNAMICS\nG_PRESSURE PAIR -WITH MID -PERIOD 5 7 -HEADING 180 -PANEL 2\nEND\n";
+    let ran = "&ENV SEA -SEA REGULAR 180 0.5 7 -RAMP 5 -TIME 10 0.25\nTDOM\n";
+    let run = |records: &str| {
+        let (mut session, screen, _folder) = common::session();
+        session.open("records", records.to_owned());
+        session.run();
+        (session, screen.text())
+    };
+    let (session, text) = run(&format!("{hulls}{asked}{ran}"));
+    assert!(text.contains("PAIR by the waves far away from all bodies, less the drift of the others"), "{text}");
+    assert!(text.contains("MID by a control surface around it"), "{text}");
+    assert!(text.contains("the mean drift of MID was found by a control surface around it"), "{text}");
+    assert!(!text.contains("Drift: largest difference of the sum"), "{text}");
+    let drift = |name: &str| session.job.model.bodies[name].database.as_ref().unwrap().data.drift.clone().unwrap();
+    assert!(drift("PAIR").values[0].iter().chain(&drift("MID").values[0]).all(|six| six[0].is_finite()));
+    let (session, text) = run(&format!("{hulls}{}", asked.replace("-PANEL", "-MEAN_DRIFT NO -PANEL")));
+    assert!(session.job.model.bodies["MID"].database.as_ref().unwrap().data.drift.is_none(), "{text}");
 }
 
 #[test]

@@ -123,6 +123,7 @@ fn drift_from_both_records_and_database_is_refused() {
         frequencies: vec![0.5],
         headings: vec![0.0],
         values: vec![vec![[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]]],
+        method: None,
     };
     let data = windlass_model::Database { drift: Some(drift), ..Default::default() };
     let span = model.loads[0].span;

@@ -64,6 +64,7 @@ fn attach(model: &mut Model, drift: DriftMethod) {
             frequencies: frequencies.clone(),
             headings: headings.clone(),
             values: vec![vec![mean; count]; headings.len()],
+            method: None,
         }),
         frequencies,
         headings,

@@ -1,7 +1,8 @@
 use nalgebra::{Complex, Vector3};
 use std::f64::consts::PI;
 use windlass_diffraction::{
-    ControlCylinder, ControlSurface, DiffractionBody, DiffractionProblem, HullMesh, MirrorPlanes, Water,
+    ControlCylinder, ControlSurface, ControlSurfaceDrift, DiffractionBody, DiffractionProblem, HullMesh, MirrorPlanes,
+    Water,
 };
 
 const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
@@ -177,6 +178,34 @@ fn error_of_lid_falls_with_panel_size() {
 }
 
 #[test]
+fn control_box_turns_to_where_it_fits_and_momentum_is_kept() {
+    // along 45 degrees the rectangle around a barge of 40 x 12 m cuts the other, 8 m beside it; along the barges there are 4 m to the middle of the gap
+    let bodies = [[0.0; 3], [3.0, 20.0, 0.0]].map(|place| barge(2.0, place, false));
+    let problem = DiffractionProblem::new(&bodies, WATER).unwrap();
+    assert!(problem.control_box(0, 0.25 * PI).is_none());
+    let boxes = [0, 1].map(|which| problem.turned_control_box(which, 0.25 * PI).unwrap());
+    for made in &boxes {
+        assert!((made.heading - 0.5 * PI).abs() < 1e-9 && (made.half[0] - 10.0).abs() < 1e-9, "{made:?}");
+        assert!((made.half[1] - 24.0).abs() < 1e-9, "{made:?}");
+    }
+    let fixed = vec![vec![Complex::default(); 12]; 2];
+    let waves = problem.solve_waves(0.9, &[0.5, 2.5]).unwrap();
+    let found = boxes.map(|made| waves.control_surface_drift(&fixed, &ControlSurface::Box(made)).unwrap());
+    for heading in 0..2 {
+        let far = waves.far_field_drift(heading, &fixed[heading]).unwrap();
+        let size = far.surge.hypot(far.sway);
+        let [one, other] = [0, 1].map(|which| (found[which][heading], boxes[which].centre));
+        let moment = |(own, [x, y]): (ControlSurfaceDrift, [f64; 2])| own.yaw + x * own.sway - y * own.surge;
+        let off = [
+            far.surge - one.0.surge - other.0.surge,
+            far.sway - one.0.sway - other.0.sway,
+            (far.yaw - moment(one) - moment(other)) / 20.0,
+        ];
+        assert!(off.iter().all(|off| off.abs() < 0.02 * size), "{off:?} of {size}");
+    }
+}
+
+#[test]
 fn digits_do_not_depend_on_number_of_threads() {
     let solve = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -184,7 +213,9 @@ fn digits_do_not_depend_on_number_of_threads() {
             let problem = DiffractionProblem::new(&[floating_box(0.0)], WATER).unwrap();
             let waves = problem.solve_waves(3.0, &[0.5]).unwrap();
             let drift = waves.far_field_drift(0, &[Complex::default(); 6]).unwrap();
-            (waves.forces.added_mass, waves.forces.damping, waves.forces.excitation, drift)
+            let surface = ControlSurface::Box(problem.control_box(0, 0.3).unwrap());
+            let near = waves.control_surface_drift(&[vec![Complex::default(); 6]], &surface).unwrap();
+            (waves.forces.added_mass, waves.forces.damping, waves.forces.excitation, drift, near)
         })
     };
     let one = solve(1);
@@ -255,6 +286,8 @@ fn drifts_of_two_boxes_by_control_surfaces_add_up_to_that_far_away() {
         (far.yaw, both.yaw),
         (far.surge, one.surge + other.surge),
         (far.sway, one.sway + other.sway),
+        // about the origin, over the distance of the boxes from it
+        (far.yaw / 1.3, (one.yaw + other.yaw) / 1.3 + one.surge - other.surge),
     ] {
         assert!((a - b).abs() < 0.02 * size, "{far:?} {both:?} {one:?} {other:?}");
     }

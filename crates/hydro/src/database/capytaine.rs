@@ -17,6 +17,9 @@ use windlass_model::{Amplitudes, Database, DriftTable, Interaction};
 /// A heading that is less than a whole turn by this (rad) is none.
 const HEADING_ROOM: f64 = 1e-9;
 
+/// The attribute of a data set of G_PRESSURE that tells how its mean drift was found, a line a body.
+pub const DRIFT_METHOD: &str = "mean_drift_method";
+
 /// Names of the directions in Capytaine.
 const DOFS: [&str; 6] = ["SURGE", "SWAY", "HEAVE", "ROLL", "PITCH", "YAW"];
 
@@ -353,7 +356,10 @@ impl Set<'_> {
         let row = |heading: &f64| data.frequencies.iter().map(|w| value(*heading, *w)).collect::<Option<Vec<_>>>();
         let values: Option<Vec<_>> = data.headings.iter().map(row).collect();
         let values = values.ok_or_else(|| self.error("mean_drift has not the headings of excitation_force"))?;
-        Ok(Some(DriftTable { frequencies: data.frequencies.clone(), headings: data.headings.clone(), values }))
+        // a line a body
+        let methods = self.file.global_attribute(DRIFT_METHOD).ok().and_then(|found| found.value.as_string());
+        let method = methods.and_then(|list| list.lines().nth(data.index).map(str::to_owned));
+        Ok(Some(DriftTable { frequencies: data.frequencies.clone(), headings: data.headings.clone(), values, method }))
     }
 }
 

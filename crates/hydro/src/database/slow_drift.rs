@@ -220,6 +220,7 @@ pub fn mean_drift(qtf: &Qtf) -> DriftTable {
         frequencies: qtf.frequencies.clone(),
         headings: qtf.headings.clone(),
         values: qtf.values.iter().map(real).collect(),
+        method: None,
     }
 }
 

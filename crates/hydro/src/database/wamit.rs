@@ -235,7 +235,7 @@ fn drift(remarks: &mut Vec<String>, file: &SourceFile, scale: &WamitScale) -> Re
     let table = by_wave(file, &list)?;
     let real = |row: &Vec<Amplitudes>| row.iter().map(|six| six.map(|v| v.re)).collect();
     let values = table.values.iter().map(real).collect();
-    Ok(DriftTable { frequencies: table.frequencies, headings: table.headings, values })
+    Ok(DriftTable { frequencies: table.frequencies, headings: table.headings, values, method: None })
 }
 
 /// Hydrostatics of a `.hst`: rows `I J C`.

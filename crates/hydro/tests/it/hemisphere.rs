@@ -317,7 +317,7 @@ fn drift() -> DriftTable {
             .map(|w| [1e4 * (w - 0.6) * h.cos(), 1e4 * (w - 0.6) * h.sin(), 500.0, 0.0, 0.0, 7.0])
             .collect()
     };
-    DriftTable { values: headings.iter().map(row).collect(), frequencies, headings }
+    DriftTable { values: headings.iter().map(row).collect(), frequencies, headings, method: None }
 }
 
 #[test]
