@@ -2,7 +2,7 @@
 //!
 //! Source: [CAPYTAINE-3 Outputs, Export outputs] for dimensions and names: `omega`, `radiating_dof`, `influenced_dof`, `wave_direction`, `complex`. The last
 //! of `omega` is infinity, with the added mass alone. What Capytaine has not, for bodies with axes of their own, stands on the dimensions
-//! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading` and `mean_drift`.
+//! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading` and `mean_drift`; `damping_lid` has the rectangles of damped surface.
 
 use super::netcdf::{Shared, to_store_error};
 use super::stored::{SOURCE, StoreError};
@@ -61,6 +61,8 @@ pub struct PressureFile<'a> {
     pub energy: &'a [f64],
     /// Added mass at infinite frequency.
     pub infinite: &'a DMatrix<f64>,
+    /// Rectangles of damped surface: x and y of two corners (m), and the damping.
+    pub lids: &'a [[f64; 5]],
     /// Mean drift, or why there is none.
     pub drift: Result<&'a [BodyDrift], &'a str>,
     /// Of a body alone: where its drift is largest, the number of the frequency, and the difference there of that by the waves far away from that by a
@@ -100,6 +102,12 @@ impl PressureFile<'_> {
             ("frequency", self.forces.len()),
         ] {
             made.set.add_fixed_dim(dimension, size).map_err(to_store_error)?;
+        }
+        if !self.lids.is_empty() {
+            made.set.add_fixed_dim("lid", self.lids.len()).map_err(to_store_error)?;
+            made.set.add_fixed_dim("lid_value", 5).map_err(to_store_error)?;
+            let text = "rectangles of damped surface: x and y of two corners, and epsilon of d phi/dz = nu (1 + i epsilon) phi";
+            made.numbers("damping_lid", &["lid", "lid_value"], "m, 1", text, self.lids.concat())?;
         }
         let omega: Vec<f64> = self.forces.iter().map(|forces| forces.frequency).chain([f64::INFINITY]).collect();
         made.numbers("omega", &["omega"], "rad/s", "frequency; the last is infinity", omega)?;

@@ -65,6 +65,35 @@ pub enum DiffractionError {
         /// Where (m).
         at: [f64; 3],
     },
+    /// A damping of a patch of the surface that is below zero, or not finite.
+    #[error("the damping {epsilon} of lid {patch} has to be zero or more")]
+    PatchDamping {
+        /// The number of the patch, from 1.
+        patch: usize,
+        /// Its damping.
+        epsilon: f64,
+    },
+    /// A patch of the surface without area.
+    #[error("lid {0} has no area")]
+    FlatPatch(usize),
+    /// A patch that is not on the part of the surface that is solved for.
+    #[error("lid {patch} is not at the mean water level, or beyond a mirror plane, at x {:.3}, y {:.3}, z {:.3} m", at[0], at[1], at[2])]
+    PatchPlace {
+        /// The number of the patch, from 1.
+        patch: usize,
+        /// Where (m).
+        at: [f64; 3],
+    },
+    /// A patch that reaches into a hull.
+    #[error("lid {patch} reaches into body {body} at x {:.3}, y {:.3} m: it lies on the water between or within hulls", at[0], at[1])]
+    PatchInHull {
+        /// The number of the patch, from 1.
+        patch: usize,
+        /// The number of the body, from 1.
+        body: usize,
+        /// Where (m).
+        at: [f64; 2],
+    },
     /// A body with other mirror planes than the first.
     #[error("body {0} has other mirror planes than body 1: all bodies have the same, or none")]
     OtherMirrors(usize),

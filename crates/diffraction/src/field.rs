@@ -3,6 +3,7 @@
 
 use crate::gauss::GaussRule;
 use crate::influence::{FlowRoom, Strengths};
+use crate::panel::Panel;
 use crate::problem::DiffractionProblem;
 use crate::rankine::{LevelImage, mirrored};
 use crate::wave_solution::WaveSolution;
@@ -90,7 +91,7 @@ impl WaveSolution {
         let sources = self.sources(motions, points)?;
         let (kernel, images) = (self.kernel_to(points), self.mesh.mirrors().images());
         let levels = LevelImage::of_all_frequencies(self.wave.depth);
-        let count = self.mesh.hull_count();
+        let count = self.mesh.emitter_count();
         let by_point: Vec<Vec<C>> = points
             .par_iter()
             .map(|point| {
@@ -98,8 +99,9 @@ impl WaveSolution {
                     self.headings.iter().map(|heading| self.wave.at(point, *heading).0 * (4.0 * PI)).collect();
                 for (image, block) in images.iter().zip((0..).step_by(count)) {
                     let from = mirrored(point, *image);
-                    let waves = kernel.over_panels(&from, self.mesh.hull());
-                    for (index, (panel, (mut source, mut dipole))) in self.mesh.hull().iter().zip(waves).enumerate() {
+                    let waves = kernel.over_panels(&from, self.mesh.emitters());
+                    for (index, (panel, (mut source, mut dipole))) in self.mesh.emitters().iter().zip(waves).enumerate()
+                    {
                         for level in &levels {
                             let z = level.sign * from.z + level.shift;
                             let [potential, angle] = panel.rankine(&Vector3::new(from.x, from.y, z));
@@ -134,7 +136,7 @@ impl WaveSolution {
         let first = points.first().copied().unwrap_or_default();
         let horizontal = |point: &Vector3<f64>| (point.x - first.x).hypot(point.y - first.y);
         let farthest = |points: &mut dyn Iterator<Item = &Vector3<f64>>| points.map(horizontal).fold(0.0, f64::max);
-        let corners = || self.mesh.hull().iter().flat_map(|panel| panel.corners());
+        let corners = || self.mesh.emitters().iter().flat_map(|panel| panel.corners());
         let images = self.mesh.mirrors().images();
         let of_hull = images.iter().fold(0.0, |most: f64, image| {
             most.max(corners().map(|corner| horizontal(&mirrored(corner, *image))).fold(0.0, f64::max))
@@ -150,11 +152,11 @@ impl WaveSolution {
         let strengths = Strengths::new(&self.sources(motions, points)?);
         let (kernel, images) = (self.kernel_to(points), self.mesh.mirrors().images());
         let levels = LevelImage::of_all_frequencies(self.wave.depth);
-        let count = self.mesh.hull_count();
+        let count = self.mesh.emitter_count();
         let of_point = |room: &mut FlowRoom, point: &Vector3<f64>| {
             let mut sums = vec![[C::default(); 3]; strengths.headings()];
             for (image, block) in images.iter().zip((0..).step_by(count)) {
-                let flows = kernel.flows(&mirrored(point, *image), *image, self.mesh.hull(), &levels, room);
+                let flows = kernel.flows(&mirrored(point, *image), *image, self.mesh.emitters(), &levels, room);
                 strengths.add_velocities(flows, block, &mut sums);
             }
             for (sum, heading) in sums.iter_mut().zip(&self.headings) {
@@ -170,10 +172,32 @@ impl WaveSolution {
 
     /// Wave elevations (m/m) at points x, y outside of the hulls, as [`WaveSolution::potentials`].
     pub fn elevations(&self, motions: &[Vec<C>], points: &[[f64; 2]]) -> Option<Vec<Vec<C>>> {
-        let points: Vec<_> = points.iter().map(|[x, y]| Vector3::new(*x, *y, 0.0)).collect();
+        let places: Vec<_> = points.iter().map(|[x, y]| Vector3::new(*x, *y, 0.0)).collect();
+        // the water rises by its vertical velocity
         let factor = C::new(0.0, self.wave.frequency / self.wave.gravity);
-        let potentials = self.potentials(motions, &points)?;
-        Some(potentials.into_iter().map(|of| of.into_iter().map(|potential| potential * factor).collect()).collect())
+        let factors: Vec<C> = points.iter().map(|at| factor * C::new(1.0, self.damping_at(*at))).collect();
+        let potentials = self.potentials(motions, &places)?;
+        let of_heading =
+            |of: Vec<C>| of.into_iter().zip(&factors).map(|(potential, factor)| potential * factor).collect();
+        Some(potentials.into_iter().map(of_heading).collect())
+    }
+
+    /// The damping of the patch of the surface at a place; 0 on the free surface.
+    fn damping_at(&self, at: [f64; 2]) -> f64 {
+        let (panels, damping) = self.mesh.patches();
+        let images = self.mesh.mirrors().images();
+        let holds = |panel: &Panel| {
+            images.iter().any(|image| {
+                let [x, y] = [at[0] * image[0], at[1] * image[1]];
+                let corners = panel.corners();
+                // counter-clockwise as seen from above: the place is to the left of all sides
+                (0..corners.len()).all(|i| {
+                    let (a, b) = (corners[i], corners[(i + 1) % corners.len()]);
+                    (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x) >= 0.0
+                })
+            })
+        };
+        panels.iter().zip(damping).find(|(panel, _)| holds(panel)).map_or(0.0, |(_, epsilon)| *epsilon)
     }
 
     /// Dynamic pressures (Pa/m) at points in the water, as [`WaveSolution::potentials`].
@@ -207,7 +231,8 @@ impl WaveSolution {
         }
         let of_heading = |(heading, motions): (usize, &Vec<C>)| {
             let (potential, _) = self.sent_out(heading, motions)?;
-            Some(potential.into_iter().map(|potential| potential * factor).collect())
+            let on_hull = self.surface.iter().zip(potential).filter(|(at, _)| at.panel < self.mesh.hull_count());
+            Some(on_hull.map(|(_, potential)| potential * factor).collect())
         };
         motions.iter().enumerate().map(of_heading).collect()
     }
@@ -254,7 +279,9 @@ impl WaveSolution {
                 add(point, (point.outward * (0.5 * square) - flux) * (0.5 * density));
             }
             for (point, potential) in waterline.iter().zip(at_waterline) {
-                let square = (potential * elevation).norm_sqr();
+                // in a damped patch the water rises beyond the head of its pressure
+                let damping = self.damping_at([point.at.x, point.at.y]);
+                let square = (potential * elevation).norm_sqr() * (1.0 - damping * damping);
                 add(point, point.outward * (-0.25 * density * self.wave.gravity * square));
             }
             made.push(drift);

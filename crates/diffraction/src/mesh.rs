@@ -28,9 +28,11 @@ impl MirrorPlanes {
 /// The wetted panels of a body, or of the part of it on one side of its mirror planes.
 #[derive(Clone, Debug)]
 pub struct HullMesh {
-    /// Those of the hull, then those of the lid.
+    /// Those of the hull, then of damped patches of the surface, then those of the lid.
     panels: Vec<Panel>,
     hull_count: usize,
+    /// Of the panels of damped patches: their damping.
+    patch_damping: Vec<f64>,
     mirrors: MirrorPlanes,
 }
 
@@ -57,7 +59,34 @@ impl HullMesh {
     ) -> Result<Self, DiffractionError> {
         let hull_count = panels.len();
         panels.extend(lid);
-        if hull_count == 0 { Err(DiffractionError::NoPanels) } else { Ok(HullMesh { panels, hull_count, mirrors }) }
+        if hull_count == 0 {
+            Err(DiffractionError::NoPanels)
+        } else {
+            Ok(HullMesh { panels, hull_count, patch_damping: Vec::new(), mirrors })
+        }
+    }
+
+    /// The same with panels of damped patches of the surface, each with its damping.
+    pub(crate) fn with_patches(mut self, patches: Vec<(Panel, f64)>) -> Self {
+        let (panels, damping): (Vec<Panel>, Vec<f64>) = patches.into_iter().unzip();
+        self.patch_damping = damping;
+        self.panels.splice(self.hull_count..self.hull_count, panels);
+        self
+    }
+
+    /// The panels of damped patches of the surface, and the damping of each.
+    pub(crate) fn patches(&self) -> (&[Panel], &[f64]) {
+        (&self.panels[self.hull_count..self.emitter_count()], &self.patch_damping)
+    }
+
+    /// The panels that send out waves: those of the hull, then those of damped patches.
+    pub(crate) fn emitters(&self) -> &[Panel] {
+        &self.panels[..self.emitter_count()]
+    }
+
+    /// How many panels send out waves.
+    pub(crate) fn emitter_count(&self) -> usize {
+        self.hull_count + self.patch_damping.len()
     }
 
     /// Meshes of several bodies as one.
@@ -107,23 +136,23 @@ impl HullMesh {
 
     /// The panels of the lid.
     pub fn lid(&self) -> &[Panel] {
-        &self.panels[self.hull_count..]
+        &self.panels[self.emitter_count()..]
     }
 
-    /// How many panels are of the hull; those of the lid follow.
+    /// How many panels are of the hull; those of damped patches and of the lid follow.
     pub(crate) fn hull_count(&self) -> usize {
         self.hull_count
     }
 
-    /// Those of the hull, then those of the lid.
+    /// Those of the hull, of damped patches and of the lid.
     pub(crate) fn panels(&self) -> &[Panel] {
         &self.panels
     }
 
-    /// The whole hull: its panels and those of its images.
+    /// The whole hull and the damped patches: their panels and those of the images.
     pub(crate) fn surface(&self) -> Vec<SurfaceElement> {
         let of_image = |image: [f64; 2]| {
-            self.hull().iter().enumerate().map(move |(panel, own)| SurfaceElement {
+            self.emitters().iter().enumerate().map(move |(panel, own)| SurfaceElement {
                 panel,
                 image,
                 centroid: mirrored(&own.centroid, image),
@@ -157,7 +186,7 @@ impl HullMesh {
     }
 }
 
-/// A panel of the hull, or an image of one.
+/// A panel of the hull or of a damped patch, or an image of one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfaceElement {
     /// Index of the panel.

@@ -3,7 +3,7 @@
 use crate::error::DiffractionError;
 use crate::gmres::{self, Columns};
 use crate::incident_wave::IncidentWave;
-use crate::mesh::HullMesh;
+use crate::mesh::{HullMesh, MirrorPlanes};
 use crate::panel::Panel;
 use crate::rankine::{LevelImage, RankinePart, mirrored, rankine_parts};
 use crate::symmetry::SymmetryClass;
@@ -43,6 +43,16 @@ pub struct DiffractionBody {
     pub mesh: HullMesh,
     /// Where its motions and moments are taken.
     pub origin: Vector3<f64>,
+}
+
+/// A patch of the free surface that takes energy from the waves, as sound as the user's choice of it: it stands for the losses of a gap or a moonpool that potential
+/// flow leaves out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DampedPatch {
+    /// Panels at the mean level (m), outside of the hulls.
+    pub quads: Vec<[Vector3<f64>; 4]>,
+    /// `epsilon` of the condition `d phi/dz = nu (1 + i epsilon) phi`; 0 is the free surface.
+    pub epsilon: f64,
 }
 
 /// The origin of a body lies on the mirror planes to this share of the size of the meshes.
@@ -119,11 +129,25 @@ impl DiffractionProblem {
     /// No body; bodies with other mirror planes than the first, or with origins beside them; density, gravity or depth that is not above zero; a bottom above the keel; a mesh that is
     /// open below the water or inside out; bodies that overlap or touch.
     pub fn new(bodies: &[DiffractionBody], water: Water) -> Result<Self, DiffractionError> {
+        DiffractionProblem::with_damped_surface(bodies, water, &[])
+    }
+
+    /// Prepares bodies in water whose surface is damped on patches: `d phi/dz = nu (1 + i epsilon) phi` there [CHEN-2004].
+    ///
+    /// # Errors
+    /// As of [`DiffractionProblem::new`]; a damping below zero; a patch that is not at the mean level, is beyond a mirror plane or reaches into a hull.
+    pub fn with_damped_surface(
+        bodies: &[DiffractionBody],
+        water: Water,
+        patches: &[DampedPatch],
+    ) -> Result<Self, DiffractionError> {
         if !(water.density > 0.0 && water.gravity > 0.0 && (water.density * water.gravity).is_finite()) {
             return Err(DiffractionError::Water);
         }
-        let mesh = Arc::new(HullMesh::joined(bodies.iter().map(|body| &body.mesh))?);
+        let mesh = HullMesh::joined(bodies.iter().map(|body| &body.mesh))?;
         let mirrors = mesh.mirrors();
+        let panels = checked_patches(patches, bodies, mirrors)?;
+        let mesh = Arc::new(mesh.with_patches(panels));
         for (index, body) in bodies.iter().enumerate() {
             let off = |mirrored: bool, x: f64| mirrored && x.abs() > ON_PLANE_SHARE * mesh.size();
             if off(mirrors.x, body.origin.x) || off(mirrors.y, body.origin.y) {
@@ -144,7 +168,7 @@ impl DiffractionProblem {
                     let own = normal_velocities(panel, &body.origin);
                     motions.iter().map(move |m| if m / MOTIONS == b { own[m % MOTIONS] } else { 0.0 })
                 });
-                let on_lid = std::iter::repeat_n(0.0, mesh.lid().len() * motions.len());
+                let on_lid = std::iter::repeat_n(0.0, (mesh.panels().len() - mesh.hull_count()) * motions.len());
                 on_hull.chain(on_lid).collect()
             })
             .collect();
@@ -303,6 +327,7 @@ impl DiffractionProblem {
             iterations: 0,
         };
         let surface = self.mesh.surface();
+        let (_, patch_damping) = self.mesh.patches();
         let mut radiated = vec![Vec::new(); count];
         let mut normal_motions = vec![Vec::new(); count];
         let mut diffracted = vec![vec![C::default(); surface.len()]; headings.len()];
@@ -362,6 +387,14 @@ impl DiffractionProblem {
                             (incident * *n - radiated * by_normal) * *area
                         })
                         .sum();
+                    // both waves meet the damped condition, the incident one alone does not
+                    let at_patches = |i: usize, epsilon: &f64| -> C {
+                        let at = self.mesh.hull_count() + i;
+                        let area = panels[at].area * images.len() as f64;
+                        potentials[at].0 * radiated[at] * C::new(0.0, epsilon * nu * area)
+                    };
+                    let damped: C = patch_damping.iter().enumerate().map(|(i, epsilon)| at_patches(i, epsilon)).sum();
+                    let haskind = haskind + damped;
                     let factor = C::new(0.0, frequency * rho);
                     made.excitation[index][*motion] = factor * haskind;
                     made.pressure_excitation[index][*motion] = factor * pressure;
@@ -382,6 +415,58 @@ impl DiffractionProblem {
             diffracted,
         })
     }
+}
+
+/// The panels of patches that damp, with their damping, looking up.
+fn checked_patches(
+    patches: &[DampedPatch],
+    bodies: &[DiffractionBody],
+    mirrors: MirrorPlanes,
+) -> Result<Vec<(Panel, f64)>, DiffractionError> {
+    let images = mirrors.images();
+    let mut made = Vec::new();
+    for (number, patch) in (1..).zip(patches) {
+        if !(patch.epsilon >= 0.0 && patch.epsilon.is_finite()) {
+            return Err(DiffractionError::PatchDamping { patch: number, epsilon: patch.epsilon });
+        }
+        for quad in &patch.quads {
+            let panel = Panel::new(*quad).ok_or(DiffractionError::FlatPatch(number))?;
+            let panel = if panel.normal.z < 0.0 {
+                let mut turned = *quad;
+                turned.reverse();
+                Panel::new(turned).ok_or(DiffractionError::FlatPatch(number))?
+            } else {
+                panel
+            };
+            let room = ON_PLANE_SHARE * panel.diagonal;
+            let beyond = |at: &Vector3<f64>| mirrors.x && at.x < -room || mirrors.y && at.y < -room;
+            if let Some(at) = panel.corners().iter().find(|at| at.z.abs() > room || beyond(at)) {
+                return Err(DiffractionError::PatchPlace { patch: number, at: [at.x, at.y, at.z] });
+            }
+            // as in [`check_apart`], seen from the mean level, where a hull and its image above are one
+            let points = std::iter::once((&panel.centroid, PI)).chain(panel.corners().iter().map(|at| (at, 3.2 * PI)));
+            for (at, most) in points {
+                let reaches = |body: &&DiffractionBody| {
+                    let angle: f64 = images
+                        .iter()
+                        .map(|image| {
+                            let from = mirrored(at, *image);
+                            2.0 * body.mesh.hull().iter().map(|panel| panel.rankine(&from)[1]).sum::<f64>()
+                        })
+                        .sum();
+                    angle < -most
+                };
+                if let Some(body) = bodies.iter().position(|body| reaches(&body)) {
+                    return Err(DiffractionError::PatchInHull { patch: number, body: body + 1, at: [at.x, at.y] });
+                }
+            }
+            // without damping it is the free surface
+            if patch.epsilon > 0.0 {
+                made.push((panel, patch.epsilon));
+            }
+        }
+    }
+    Ok(made)
 }
 
 fn solve_system(system: &WaveSystem, right: &Columns) -> Option<(Columns, usize)> {

@@ -148,6 +148,8 @@ impl WaveSolution {
         let count = SPARE_HEADINGS + 2 * (2.0 * k * radius).ceil() as usize;
         let step = 2.0 * PI / count as f64;
         let factor = C::new(0.0, omega * self.water.density);
+        let patches: Vec<(usize, f64)> = self.patch_elements().collect();
+        let nu = omega * omega / self.wave.gravity;
         let forces: Vec<Vec<C>> = (0..count)
             .into_par_iter()
             .map(|i| {
@@ -164,7 +166,15 @@ impl WaveSolution {
                 let of_motion = |(radiated, velocities): (&Vec<C>, &Vec<f64>)| -> C {
                     let all = waves.iter().zip(radiated).zip(velocities);
                     let sum: C = all.map(|(((potential, by_normal), own), n)| potential * *n - own * by_normal).sum();
-                    sum * factor
+                    // on damped patches as in the exciting forces
+                    let damped: C = patches
+                        .iter()
+                        .map(|(at, epsilon)| {
+                            let (potential, by_normal) = waves[*at];
+                            radiated[*at] * (potential * C::new(0.0, epsilon * nu) + by_normal)
+                        })
+                        .sum();
+                    (sum + damped) * factor
                 };
                 self.radiated.iter().zip(&self.velocities).map(of_motion).collect()
             })
@@ -177,9 +187,21 @@ impl WaveSolution {
         })
     }
 
+    /// The part of the damping that damped patches of the surface take: `rho omega nu int epsilon Re(phi_i phi_j*) dS`.
+    pub fn damping_by_patches(&self) -> DMatrix<f64> {
+        let omega = self.wave.frequency;
+        let unit = self.water.density * omega * omega * omega / self.wave.gravity;
+        let patches: Vec<(usize, f64)> =
+            self.patch_elements().map(|(at, epsilon)| (at, epsilon * unit * self.surface[at].area)).collect();
+        let motions = self.radiated.len();
+        DMatrix::from_fn(motions, motions, |i, j| {
+            patches.iter().map(|(at, share)| share * (self.radiated[i][*at] * self.radiated[j][*at].conj()).re).sum()
+        })
+    }
+
     /// The largest difference of the damping from that by energy, over the largest of the same kind.
     pub fn energy_difference(&self) -> f64 {
-        difference(&self.forces.damping, &self.damping_by_energy())
+        difference(&self.forces.damping, &(self.damping_by_energy() + self.damping_by_patches()))
     }
 }
 

@@ -92,8 +92,9 @@ impl WaveSolution {
         let turning_interference = -2.0 * factor / k * forward.by_angle.im;
         let unit = 0.5 * self.water.density * self.water.gravity * self.wave.group_share();
         let speed = omega / k;
-        // the work of the water on the bodies, which other damping takes
-        let absorbed = self.absorbed_power(heading, motions)? / (unit * speed);
+        // the work of the water on the bodies, which other damping takes, and what damped patches take
+        let taken = self.absorbed_power(heading, motions)? + self.dissipated_power(heading, motions)?;
+        let absorbed = taken / (unit * speed);
         let (sine, cosine) = beta.sin_cos();
         Some(FarFieldDrift {
             surge: unit * ((energy + absorbed) * cosine - along),
@@ -120,7 +121,35 @@ impl WaveSolution {
                 *value += velocity * *own;
             }
         }
+        // a damped patch is a layer of sources
+        for (at, epsilon) in self.patch_elements() {
+            let nu = self.wave.frequency * self.wave.frequency / self.wave.gravity;
+            by_normal[at] = potential[at] * C::new(0.0, epsilon * nu);
+            potential[at] = C::default();
+        }
         Some((potential, by_normal))
+    }
+
+    /// Elements of the surface that are of damped patches, and their damping.
+    pub(crate) fn patch_elements(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let (first, (_, damping)) = (self.mesh.hull_count(), self.mesh.patches());
+        self.surface
+            .iter()
+            .enumerate()
+            .filter_map(move |(i, at)| Some((i, *damping.get(at.panel.checked_sub(first)?)?)))
+    }
+
+    /// The mean power (W/m2) that damped patches take from waves of amplitude 1 m from one of the headings, by its index, with the motions of the bodies:
+    /// `rho omega nu/2 int epsilon |phi|2 dS`. None as of [`WaveSolution::far_field_drift`].
+    pub fn dissipated_power(&self, heading: usize, motions: &[C]) -> Option<f64> {
+        let (_, by_normal) = self.sent_out(heading, motions)?;
+        let nu = self.wave.frequency * self.wave.frequency / self.wave.gravity;
+        let of_element = |(at, epsilon): (usize, f64)| {
+            // the sources are i epsilon nu phi
+            let share = if epsilon > 0.0 { by_normal[at].norm_sqr() / (epsilon * nu) } else { 0.0 };
+            share * self.surface[at].area
+        };
+        Some(0.5 * self.water.density * self.wave.frequency * self.patch_elements().map(of_element).sum::<f64>())
     }
 
     fn kochin(&self, potential: &[C], by_normal: &[C], angle: f64) -> Kochin {

@@ -366,7 +366,31 @@ fn block_pair(
             }
         }
     }
+    damp_patches(&mut made, mesh, blocks);
     made
+}
+
+/// Makes columns of damped patches, which are as those of a lid, those of the damped condition: `-i epsilon nu int G dS` for `nu int G dS`. The diagonal keeps
+/// the angle that is not of the column.
+fn damp_patches(pairs: &mut [ClassPair], mesh: &HullMesh, blocks: [usize; 2]) {
+    let (first, (_, damping)) = (mesh.hull_count(), mesh.patches());
+    if damping.is_empty() {
+        return;
+    }
+    let [rows, columns] = blocks.map(|block| block_range(block, mesh.panels().len()));
+    let own = Complex::from(4.0 * std::f32::consts::PI);
+    for [one, other] in pairs.iter_mut().map(|pair| &mut pair.tiles) {
+        for (tile, rows, columns) in [(one, &rows, &columns), (other, &columns, &rows)] {
+            for (row, entries) in rows.clone().zip(tile.chunks_mut(columns.len())) {
+                for (column, entry) in columns.clone().zip(entries) {
+                    if let Some(epsilon) = column.checked_sub(first).and_then(|patch| damping.get(patch)) {
+                        let factor = Complex::new(0.0, -epsilon as f32);
+                        *entry = if row == column { (*entry - own) * factor + own } else { *entry * factor };
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// The part of the tiles of a pair that does not depend on the frequency but by the factor of the lid; `counts` are those of all panels and of

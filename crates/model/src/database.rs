@@ -60,6 +60,8 @@ pub struct Database {
     pub index: usize,
     /// Radiation of the other bodies of its source, as it acts on this one.
     pub interactions: Vec<Interaction>,
+    /// Rectangles of damped surface that it was computed with here: x and y of two corners from the first body of its source, along its heading (m), and the damping.
+    pub lids: Vec<[f64; 5]>,
     /// Size of the panels that it was computed with here (m); none of a source that was read.
     pub panel_size: Option<f64>,
     /// What the reader noticed: asymmetry, negative damping, gaps.

@@ -61,6 +61,9 @@ pub static V_MDRIFT: Command = Command { spec: &DRIFT_SPEC, edits: false, run: s
 /// Most periods of a database [MOSES-REF pressure].
 const MAX_PERIODS: usize = 200;
 
+/// Largest damping of a lid: the surface as good as closed.
+const MAX_LID_DAMPING: f64 = 100.0;
+
 const BODY: ValueSpec = ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body");
 const PACKET: ValueSpec = ValueSpec::new("PKT_NAME", Kind::Text, "name of the data, kept in reports alone").or("none");
 
@@ -123,6 +126,19 @@ const MEAN_DRIFT: OptionSpec = OptionSpec::ours(
     "finds the mean drift of each body: of several by a control surface around each",
 )
 .default("YES");
+/// A rectangle of damped surface.
+pub const LID: OptionSpec = OptionSpec::ours(
+    "-LID",
+    &[
+        ValueSpec::new("X1", Kind::Number(Dim::Length), "a corner, from the origin of the first body along its heading"),
+        ValueSpec::new("Y1", Kind::Number(Dim::Length), "the same to the left"),
+        ValueSpec::new("X2", Kind::Number(Dim::Length), "the opposite corner"),
+        ValueSpec::new("Y2", Kind::Number(Dim::Length), "the same to the left"),
+        ValueSpec::new("EPSILON", Kind::Number(Dim::None), "damping: 0 none, some 0.01 to 0.2 in gaps").in_range(0.0, MAX_LID_DAMPING),
+    ],
+    "the water surface of a rectangle takes energy from the waves, as a gap between hulls or a moonpool does by eddies; given again for each of them",
+)
+.default("none");
 const CHECK: OptionSpec = OptionSpec::ours(
     "-CHECK",
     &[],
@@ -156,11 +172,12 @@ const MAX_DIST: OptionSpec = OptionSpec::new(
 static PRESSURE_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, MEAN_DRIFT, CHECK, KEPT, MAX_DIST],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, WITH, LID, MEAN_DRIFT, CHECK, KEPT, MAX_DIST],
     detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
              are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
              Mirror planes of a single hull are found and used. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
-             irregular frequencies away; a moonpool stays open. -WITH solves several bodies together: each gets a database with the \
+             irregular frequencies away; a moonpool stays open. -LID damps the surface of a rectangle of it, or of a gap between bodies, by dphi/dz = w2/g (1 + i EPSILON) phi: \
+             motions of the water that potential flow overrates fall, and the report has the value. -WITH solves several bodies together: each gets a database with the \
              radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
              FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. Mean drift is found with the motions that mass, stiffness, moorings and damping give the bodies now: of a body alone by the waves far away (G_MDRIFT finds it anew \
              after these have changed), of several by a control surface around each; where none fits around one of them it has what the drifts of the others leave of that of the waves far \
@@ -179,7 +196,7 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
 static MEAN_SPEC: CommandSpec = CommandSpec {
     menus: &[&menu::HYDRODYNAMICS],
     data: &[BODY, PACKET],
-    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, MD_TYPE, DIMENSIONS],
+    options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, LID, MD_TYPE, DIMENSIONS],
     detail: "Mean drift in surge, sway and yaw of a body that has a database of G_PRESSURE, by its panels where it stands and with the motions that its mass, \
              stiffness, moorings and damping give it now, drag at rest; it replaces the drift of the database. It is found by the waves far away, which \
              solves use, and by a control surface around the body: the report has both and their difference, which measures the mesh. A body that is held \
@@ -359,6 +376,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
             periods: job.model.wave_defaults.periods.clone(),
             size: length(&PANEL),
             depth: length(&WATER_DEPTH),
+            lids: lids_of(args),
             has_drift: args.option(&MEAN_DRIFT).is_none_or(Given::is_on),
             is_checked: args.has(&CHECK),
             kept: None,
@@ -384,6 +402,11 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         ),
     );
     Ok(Effect::Done)
+}
+
+/// The rectangles of damped surface that a record gives.
+pub fn lids_of(args: &Args) -> Vec<[f64; 5]> {
+    args.occurrences(&LID).filter_map(|given| given.numbers().try_into().ok()).collect()
 }
 
 /// The file of results of another job; where there is none that is said.
@@ -434,6 +457,7 @@ fn mean_drift(job: &mut Job, call: &Call) -> Outcome<Effect> {
         periods: given(&PERIOD).unwrap_or_else(|| data.frequencies.iter().map(|w| TAU / w).collect()),
         size: length(&PANEL).or(Some(size)),
         depth: length(&WATER_DEPTH).or(data.depth),
+        lids: if args.has(&LID) { lids_of(args) } else { data.lids.clone() },
         has_drift: true,
         is_checked: false,
         kept: None,

@@ -56,6 +56,7 @@ pub fn check(
         periods: meshed.frequencies.iter().map(|w| TAU / w).collect(),
         size: Some(FINER * meshed.size),
         depth: request.depth,
+        lids: request.lids.clone(),
         has_drift: request.has_drift,
         is_checked: false,
         kept: None,

@@ -19,8 +19,8 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
-    DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh, MirrorPlanes,
-    Water,
+    DampedPatch, DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh,
+    MirrorPlanes, Water,
 };
 use windlass_hydro::database::checks::MODES;
 use windlass_hydro::database::radiation::{OgilvieQuality, Radiation};
@@ -36,6 +36,8 @@ const POOR_PANELS_A_WAVE: f64 = 8.0;
 const LEAST_PANELS_A_WAVE: f64 = 4.0;
 /// Most panels of the part of a hull that is solved.
 const MAX_PANELS: usize = 20_000;
+/// Panels across a rectangle of damped surface, at least.
+const LEAST_LID_PANELS: f64 = 2.0;
 /// Bytes of a pair of panels in a symmetry class, its Rankine part included.
 const BYTES_A_PAIR: u64 = 24;
 /// Bytes that matrices may take where the system does not say how much memory is free.
@@ -66,6 +68,8 @@ pub struct PanelRequest {
     pub size: Option<f64>,
     /// Depth (m) instead of that of the environment.
     pub depth: Option<f64>,
+    /// Rectangles of damped surface: x and y of two corners in axes of the group (m), and the damping.
+    pub lids: Vec<[f64; 5]>,
     /// Whether mean drift is found.
     pub has_drift: bool,
     /// Whether a check of the results follows.
@@ -110,8 +114,11 @@ pub struct MeshedBodies {
     pub frequencies: Vec<f64>,
     /// The water.
     pub water: Water,
+    /// Rectangles of damped surface, as they were asked for.
+    pub lids: Vec<[f64; 5]>,
     mirrors: MirrorPlanes,
     parts: Vec<DiffractionBody>,
+    patches: Vec<DampedPatch>,
 }
 
 impl MeshedBodies {
@@ -138,6 +145,9 @@ impl MeshedBodies {
         let depth = request.depth.or(around.depth);
         let water = Water { density: around.water_density, gravity: around.gravity, depth };
         let wrong = |text: String| Diagnostic::error(text, request.span);
+        if let Some(fault) = fault_of_lids(&request.lids) {
+            return Err(wrong(fault));
+        }
         let mut hulls: Vec<(String, &Body, WettedHull)> = Vec::new();
         for name in names {
             let key = Model::key(name);
@@ -163,10 +173,12 @@ impl MeshedBodies {
             shift.map(|x| if x.abs() < SAME_PLACE { 0.0 } else { x })
         };
         let is_plane = |axis: usize| {
-            hulls.iter().all(|(_, body, hull)| {
-                hull.mirrors[axis]
-                    && (alone || shift_of(body)[axis] == 0.0 && (body.position.turn[2] - heading).abs() < SAME_PLACE)
-            })
+            is_mirrored(&request.lids, axis)
+                && hulls.iter().all(|(_, body, hull)| {
+                    hull.mirrors[axis]
+                        && (alone
+                            || shift_of(body)[axis] == 0.0 && (body.position.turn[2] - heading).abs() < SAME_PLACE)
+                })
         };
         let mirrors = MirrorPlanes { x: is_plane(0), y: is_plane(1) };
         let images = mirrors.images().len() as f64;
@@ -192,7 +204,9 @@ impl MeshedBodies {
             let text = format!("{}: {}", names.join(", "), problem.sentence(available));
             wrong(text).help(problem.remedy(size, available))
         };
-        let rough = ProblemSize { panels: expected, of_lids: 0.0, classes: images };
+        let damped: f64 =
+            request.lids.iter().filter_map(|lid| LidPart::new(lid, size, mirrors)).map(|part| part.panels()).sum();
+        let rough = ProblemSize { panels: expected + damped, of_lids: damped, classes: images };
         if !rough.fits(available) {
             return Err(refused(&rough));
         }
@@ -217,13 +231,22 @@ impl MeshedBodies {
             parts.push(DiffractionBody { mesh, origin });
         }
         let count = |of: &dyn Fn(&MeshedBody) -> usize| bodies.iter().map(of).sum::<usize>() as f64;
-        let of_lids = count(&|body| body.lid_panels);
+        let patches: Vec<DampedPatch> = request
+            .lids
+            .iter()
+            .map(|lid| {
+                let quads = LidPart::new(lid, size, mirrors).map_or_else(Vec::new, |part| part.quads());
+                DampedPatch { quads, epsilon: lid[4] }
+            })
+            .collect();
+        let of_lids = count(&|body| body.lid_panels) + damped;
         let whole = ProblemSize { panels: count(&|body| body.panels) + of_lids, of_lids, classes: images };
         if !whole.fits(available) {
             return Err(refused(&whole));
         }
         let frequencies = choose_frequencies(names, request, size, water)?;
-        Ok(MeshedBodies { bodies, heading, place, size, frequencies, water, mirrors, parts })
+        let lids = request.lids.clone();
+        Ok(MeshedBodies { bodies, heading, place, size, frequencies, water, lids, mirrors, parts, patches })
     }
 
     /// The problem of the bodies.
@@ -231,7 +254,7 @@ impl MeshedBodies {
     /// # Errors
     /// Bodies that overlap; a bottom above a keel; an open mesh.
     pub fn problem(&self, span: Span) -> Outcome<DiffractionProblem> {
-        DiffractionProblem::new(&self.parts, self.water).map_err(|error| {
+        DiffractionProblem::with_damped_surface(&self.parts, self.water, &self.patches).map_err(|error| {
             let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
             let said = Diagnostic::error(format!("{}: {error}", names.join(", ")), span);
             let named: Vec<String> = names.iter().enumerate().map(|(i, name)| format!("{} is {name}", i + 1)).collect();
@@ -276,6 +299,7 @@ impl MeshedBodies {
                 add(&mut panels.iter().flat_map(|panel| panel.corners()).flat_map(|corner| corner.iter().copied()));
             }
         }
+        add(&mut self.lids.iter().flatten().copied());
         for number in panel_drift::numbers(drift, self, headings) {
             hasher.update(number.to_le_bytes());
         }
@@ -306,6 +330,71 @@ impl MeshedBodies {
             Ok(Database { panel_size: Some(self.size), ..data })
         };
         (0..self.bodies.len()).map(of).collect()
+    }
+}
+
+/// Whether all rectangles of damped surface are the same on both sides of a plane.
+fn is_mirrored(lids: &[[f64; 5]], axis: usize) -> bool {
+    let sorted = |[x0, y0, x1, y1, epsilon]: &[f64; 5]| [x0.min(*x1), y0.min(*y1), x0.max(*x1), y0.max(*y1), *epsilon];
+    let all: Vec<[f64; 5]> = lids.iter().map(sorted).collect();
+    all.iter().all(|own| {
+        let mut image = *own;
+        (image[axis], image[axis + 2]) = (-own[axis + 2], -own[axis]);
+        all.iter().any(|other| other.iter().zip(&image).all(|(a, b)| (a - b).abs() <= SAME_PLACE))
+    })
+}
+
+/// What is wrong with rectangles of damped surface, in words.
+fn fault_of_lids(lids: &[[f64; 5]]) -> Option<String> {
+    let sides = |[x0, y0, x1, y1, _]: &[f64; 5]| [[x0.min(*x1), x0.max(*x1)], [y0.min(*y1), y0.max(*y1)]];
+    lids.iter().map(sides).enumerate().find_map(|(i, own)| {
+        if own.iter().any(|[low, high]| high - low <= SAME_PLACE) {
+            return Some(format!("the rectangle of -LID {} has no area", i + 1));
+        }
+        let other = lids[..i]
+            .iter()
+            .map(sides)
+            .position(|other| own.iter().zip(&other).all(|([a, b], [c, d])| b.min(*d) - a.max(*c) > SAME_PLACE))?;
+        Some(format!("the rectangles of -LID {} and -LID {} overlap", other + 1, i + 1))
+    })
+}
+
+/// The part of a rectangle of damped surface that is solved for: its limits along x and y, and panels along both, two at least.
+struct LidPart {
+    limits: [[f64; 2]; 2],
+    counts: [f64; 2],
+}
+
+impl LidPart {
+    /// None of a lid on the other side of a mirror plane, which is the image of one on this side.
+    fn new([x0, y0, x1, y1, _]: &[f64; 5], size: f64, mirrors: MirrorPlanes) -> Option<Self> {
+        let part = |a: f64, b: f64, is_mirrored: bool| {
+            let (low, high) = (a.min(b), a.max(b));
+            if is_mirrored { [low.max(0.0), high] } else { [low, high] }
+        };
+        let limits = [part(*x0, *x1, mirrors.x), part(*y0, *y1, mirrors.y)];
+        let counts = limits.map(|[low, high]| ((high - low) / size).ceil().max(LEAST_LID_PANELS));
+        limits.iter().all(|[low, high]| high - low > SAME_PLACE).then_some(LidPart { limits, counts })
+    }
+
+    fn panels(&self) -> f64 {
+        self.counts[0] * self.counts[1]
+    }
+
+    /// Its panels, as many as were found to fit.
+    fn quads(&self) -> Vec<[Vector3<f64>; 4]> {
+        let at = |i: usize, j: usize| {
+            let along = |axis: usize, place: usize| {
+                let [low, high] = self.limits[axis];
+                low + (high - low) * place as f64 / self.counts[axis]
+            };
+            Vector3::new(along(0, i), along(1, j), 0.0)
+        };
+        let [columns, rows] = self.counts.map(|count| count as usize);
+        (0..columns)
+            .flat_map(|i| (0..rows).map(move |j| (i, j)))
+            .map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
+            .collect()
     }
 }
 
@@ -539,6 +628,7 @@ fn solve(
         forces: &made,
         energy: &energy,
         infinite: &infinite,
+        lids: &meshed.lids,
         drift,
         drift_check,
         drift_methods: &panel_drift::methods(&surfaces),
@@ -715,6 +805,14 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
             table = table.fact(&fact("Ogilvie's Relation"), ogilvie_figures(&radiation.quality), Dim::None);
         }
     }
+    for (number, (lid, patch)) in (1..).zip(meshed.lids.iter().zip(&meshed.patches)) {
+        let [x0, y0, x1, y1, epsilon] = *lid;
+        for (name, length) in [("from X", x0), ("from Y", y0), ("to X", x1), ("to Y", y1)] {
+            table = table.fact(&format!("Damping Lid {number} {name}"), length, Dim::Length);
+        }
+        table = table.fact(&format!("Damping Lid {number} Panels"), patch.quads.len() * images, Dim::None);
+        table = table.fact(&format!("Damping Lid {number} Epsilon"), epsilon, Dim::None);
+    }
     table = table.fact("Symmetry", planes, Dim::None);
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
     table = match water.depth {
@@ -726,6 +824,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     table.note(
         "Haskind: largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
     );
+    if !meshed.lids.is_empty() {
+        table.note("the surface of each damping lid takes energy from the waves by its epsilon: what stands here is that of the epsilon that was given, which measurements or a model of the losses have to tell");
+    }
     if quality.drift.is_some() {
         table.note(match meshed.bodies.len() {
             1 => "Drift: difference of the mean drift by a control surface from that of the waves far away, which acts, per cent of the largest, at the period of that",
@@ -762,6 +863,7 @@ mod tests {
             periods: vec![8.0],
             size: Some(2.0),
             depth: None,
+            lids: Vec::new(),
             has_drift: false,
             is_checked: false,
             kept: None,

@@ -2,7 +2,7 @@
 //! motions that it gives them.
 
 use crate::commands::menu;
-use crate::commands::model::hydrodynamics::toward;
+use crate::commands::model::hydrodynamics::{LID, lids_of, toward};
 use crate::commands::model::panel_drift::{self, DriftSource};
 use crate::commands::model::panel_forces::{MeshedBodies, PanelRequest, wave_length};
 use crate::commands::{Call, Command, Effect, Job};
@@ -19,7 +19,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Noun};
 use windlass_diffraction::{MOTIONS, WaveSolution};
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, OptionSpec, ValueSpec};
-use windlass_model::{Body, find};
+use windlass_model::{Body, Model, find};
 use windlass_solve::film::{Actor, Film, FilmSolid, WaveField};
 
 /// V_WAVES.
@@ -118,7 +118,7 @@ static SPEC: CommandSpec = CommandSpec {
     owner: windlass_language::select::Owner::Ours,
     menus: &[&menu::HYDRODYNAMICS],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
-    options: &[PERIOD, HEADING, WITH, PHASE, HELD, AMPLITUDE, AROUND, POINTS, PANEL, DEPTH, FILE, PIXELS],
+    options: &[PERIOD, HEADING, WITH, LID, PHASE, HELD, AMPLITUDE, AROUND, POINTS, PANEL, DEPTH, FILE, PIXELS],
     detail: "Draws what a regular wave of unit amplitude does at bodies, by their panels where they stand, with the motions that it gives them: in plan the \
              elevation of the water around them, by colours with lines between them, and below the pressure on the panels of their hulls, seen \
              from below and from both sides along the wave. Values are over the amplitude, pressures over density, gravity and amplitude. Without -PHASE they are the \
@@ -153,11 +153,22 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         let others = job.model.bodies.values().filter(|other| other.name != body.name && is_same(other));
         names.extend(others.map(|other| other.name.clone()));
     }
+    let mut lids = lids_of(args);
+    if let Some(data) = data.as_ref().filter(|data| !data.lids.is_empty() && !args.has(&LID)) {
+        // in axes of the first body of the database
+        lids.clone_from(&data.lids);
+        let place = |name: &String| {
+            let own = job.model.bodies.get(&Model::key(name)).and_then(|body| body.database.as_ref());
+            own.map_or(usize::MAX, |own| own.data.index)
+        };
+        names.sort_by_key(place);
+    }
     let request = PanelRequest {
         headings: toward(vec![args.option_number(&HEADING).unwrap_or(PI)]),
         periods: vec![period],
         size: args.option_number(&PANEL).or_else(|| data.as_ref().and_then(|data| data.panel_size)),
         depth: args.option_number(&DEPTH).or_else(|| data.as_ref().and_then(|data| data.depth)),
+        lids,
         has_drift: true,
         is_checked: false,
         kept: None,

@@ -260,6 +260,10 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
         let own = if masses.len() == 1 { 0 } else { data.index };
         data.mass = masses.get(own).copied().filter(|m| m.is_finite());
     }
+    if set.has("damping_lid") {
+        let all = set.numbers("damping_lid")?.values;
+        data.lids = all.as_chunks::<5>().0.to_vec();
+    }
     if set.has("body_axes") {
         let bodies = set.own_axes()?;
         data.drift = set.mean_drift(&data, along)?;
