@@ -283,7 +283,7 @@ fn energy_that_waves_lose_is_dissipated_by_patch() {
     for at in [0, 2] {
         let (made, exact) = (by_both[(at, at)], waves.forces.damping[(at, at)]);
         assert!((made / exact - 1.0).abs() < 0.01, "{at}: {made} for {exact}");
-        let (pressure, haskind) = (waves.forces.excitation[0][at], waves.forces.haskind[0][at]);
+        let (pressure, haskind) = (waves.forces.pressure_excitation[0][at], waves.forces.excitation[0][at]);
         assert!((pressure - haskind).norm() < 0.02 * pressure.norm(), "{at}: {pressure} {haskind}");
     }
     // most of the damping of heave is that of the patch here
