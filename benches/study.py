@@ -143,4 +143,4 @@ if __name__ == "__main__":
     for word in sys.argv[1:] or checks:
         name, _, number = word.partition("=")
         with tempfile.TemporaryDirectory() as folder:
-            checks[name](Path(folder), *[int(number)] * bool(number))
+            checks[name](Path(folder), *([int(number)] if number else []))

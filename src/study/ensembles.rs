@@ -2,6 +2,7 @@
 
 use super::tables::{RowSource, cell_of, input_column, input_heads, number_column, text_column};
 use crate::report::stored::StoredColumn;
+use rayon::prelude::*;
 use std::ops::Range;
 use windlass_signal::ensemble::{GumbelFit, SeedExtremes, seeds_for_scatter, seeds_for_scatter_of_minima};
 use windlass_study::ensemble::{Ensemble, EnsembleResult, ensembles, is_seed_column};
@@ -153,12 +154,12 @@ impl RowSource for EnsembleRows<'_> {
 
     fn columns(&self, range: Range<usize>) -> Vec<StoredColumn> {
         let seeds_head = format!("seeds_for_{}_percent", self.percent);
-        let ensembles = range.filter_map(|place| self.ensembles.get(place));
+        let ensembles = range.into_par_iter().filter_map(|place| self.ensembles.get(place));
         let rows_of = |ensemble| {
             let results = Ensemble::results(ensemble).into_iter();
             results.map(|result| row(ensemble, result, (self.percent, &seeds_head))).collect::<Vec<_>>()
         };
-        let rows: Vec<Row<'_>> = ensembles.flat_map(rows_of).collect();
+        let rows: Vec<Row<'_>> = ensembles.flat_map_iter(rows_of).collect();
         let first = rows.iter().map(|row| row.first().map(|case| case.case().to_owned()));
         let mut columns = vec![text_column("first_case", first.collect())];
         for (input, is_number) in &self.inputs {

@@ -46,7 +46,7 @@ impl StudyTables {
 }
 
 /// A table whose rows are made of things in a row, some of these at a time.
-pub(super) trait RowSource {
+pub(super) trait RowSource: Sync {
     /// How many things there are.
     fn count(&self) -> usize;
     /// How many are to be taken at once.
@@ -98,14 +98,12 @@ fn write_table(table: &dyn RowSource, (name, title): (&str, &str), folder: &Path
             csv.write_record(columns.iter().map(csv_head))?;
             let mut parquet = ColumnWriter::new(parquet, title, "", &columns).map_err(wrong)?;
             let mut from = 0;
-            loop {
-                write_csv_rows(&mut csv, &columns)?;
-                parquet.write(columns).map_err(wrong)?;
+            while !columns.is_empty() {
                 from += step;
-                if from >= table.count() {
-                    break;
-                }
-                columns = table.columns(range(from));
+                let make_next = || if from < table.count() { table.columns(range(from)) } else { Vec::new() };
+                let (written, next) = rayon::join(|| write_csv_rows(&mut csv, &columns), make_next);
+                written?;
+                parquet.write(std::mem::replace(&mut columns, next)).map_err(wrong)?;
             }
             parquet.close().map_err(wrong)
         })?;

@@ -9,6 +9,8 @@
 use super::extremes::{EULER, Gumbel};
 use super::{SeriesError, finite};
 use statrs::distribution::{ContinuousCDF, StudentsT};
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::f64::consts::PI;
 use windlass_base::choices;
 
@@ -152,14 +154,31 @@ fn reduced_variate(probability: f64) -> Result<f64, SeriesError> {
     Ok(-(-probability.ln()).ln())
 }
 
+/// Deviates of Student's t that a thread keeps at most.
+const MOST_KNOWN_DEVIATES: usize = 1 << 12;
+
 /// The two-sided deviate of Student's t with count - 1 degrees of freedom.
 fn student_t(count: usize, level: f64) -> Result<f64, SeriesError> {
     if !(level > 0.0 && level < 1.0) {
         return Err(SeriesError::Setting { what: "the confidence level", expected: "between 0 and 1", value: level });
     }
+    thread_local! {
+        // a study asks for the same few a million times, and each takes an iteration over incomplete beta functions
+        static KNOWN: RefCell<HashMap<(usize, u64), f64>> = RefCell::new(HashMap::new());
+    }
+    let key = (count, level.to_bits());
+    if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
+        return Ok(known);
+    }
     let freedom = count.saturating_sub(1).max(1) as f64;
     let t = StudentsT::new(0.0, 1.0, freedom).map_err(|e| SeriesError::Refused(format!("Student's t: {e}")))?;
-    Ok(t.inverse_cdf(0.5 + 0.5 * level))
+    let deviate = t.inverse_cdf(0.5 + 0.5 * level);
+    KNOWN.with_borrow_mut(|known| {
+        if known.len() < MOST_KNOWN_DEVIATES {
+            known.insert(key, deviate);
+        }
+    });
+    Ok(deviate)
 }
 
 /// How many seeds it takes until the interval of the most probable maximum, at a confidence level (0..1), is no wider than a share of it
