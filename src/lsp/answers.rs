@@ -11,7 +11,7 @@ use crate::commands::{COMMANDS, internal_names, menu};
 use crate::format_scripts::format_script;
 use crate::report::files::is_within;
 use serde_json::{Map, Value, json};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 use std::path::Path;
 use windlass_base::diagnostic::Severity;
@@ -298,13 +298,12 @@ impl Answers<'_> {
 
     /// The record that defines the name at a byte, where it is another one.
     fn described_name(&self, byte: usize) -> Option<String> {
-        let texts = self.texts();
-        let (own, defined) = self.find_definition(&texts, byte)?;
-        let (path, text) = texts.get(own)?;
-        if *path == self.document.path && defined.record.contains(&byte) {
+        let all = self.named();
+        let (path, text, defined) = Self::find_definition(&all, byte)?;
+        if path == self.document.path && defined.record.contains(&byte) {
             return None;
         }
-        let record = text.get(defined.record)?;
+        let record = text.get(defined.record.clone())?;
         let line = 1 + text.get(..defined.range.start)?.matches('\n').count();
         let name = path.file_name()?.to_string_lossy().into_owned();
         let shown: String = record.lines().take(4).collect::<Vec<_>>().join("\n");
@@ -323,31 +322,46 @@ impl Answers<'_> {
         list
     }
 
-    /// The name at a byte of the text that is asked about.
-    fn name_at(&self, byte: usize) -> Option<Occurrence> {
-        let own = occurrences(self.text(), &self.met(&self.document.path));
-        own.into_iter().find(|one| one.range.start <= byte && byte <= one.range.end)
+    /// The files that are read together with their names. A call that abbreviates a macro has the macro's whole name.
+    fn named(&self) -> Vec<NamePlaces<'_>> {
+        let texts = self.texts().into_iter();
+        let mut all: Vec<NamePlaces<'_>> =
+            texts.map(|(path, text)| (path, text, occurrences(text, &self.met(path)))).collect();
+        let every = all.iter().flat_map(|(_, _, list)| list);
+        let macros: BTreeSet<String> =
+            every.filter(|one| one.defines && one.kind == NameKind::Macro).map(|one| one.name.clone()).collect();
+        let calls =
+            all.iter_mut().flat_map(|(_, _, list)| list).filter(|one| one.kind == NameKind::Macro && !one.defines);
+        for call in calls {
+            if !macros.contains(&call.name)
+                && let [whole] = *macros.iter().filter(|name| name.starts_with(&call.name)).collect::<Vec<_>>()
+            {
+                call.name.clone_from(whole);
+            }
+        }
+        all
     }
 
-    fn find_definition(&self, texts: &[(&Path, &str)], byte: usize) -> Option<(usize, Occurrence)> {
-        let wanted = self.name_at(byte)?;
-        texts.iter().enumerate().find_map(|(index, (path, text))| {
-            let all = occurrences(text, &self.met(path));
-            let means = |one: &Occurrence| one.defines && one.name == wanted.name && wanted.kind.may_be(one.kind);
-            Some((index, all.into_iter().find(means)?))
-        })
+    /// The name at a byte of the text that is asked about, the first of those that are read.
+    fn name_at<'a>(all: &'a [NamePlaces<'_>], byte: usize) -> Option<&'a Occurrence> {
+        let (_, _, own) = all.first()?;
+        own.iter().find(|one| one.range.start <= byte && byte <= one.range.end)
     }
 
-    /// Every place of the name at a byte, and its kind; its definition is among them.
-    fn places(&self, byte: usize) -> Option<(NameKind, Vec<NamePlaces<'_>>)> {
-        let texts = self.texts();
-        let (_, defined) = self.find_definition(&texts, byte)?;
-        let means = |one: &Occurrence| one.name == defined.name && one.kind.may_be(defined.kind);
-        let of_text = |(path, text): &(&'_ Path, &'_ str)| -> Vec<Occurrence> {
-            occurrences(text, &self.met(path)).into_iter().filter(means).collect()
-        };
-        let all = texts.iter().map(|one| (one.0, one.1, of_text(one))).collect();
-        Some((defined.kind, all))
+    /// The record that defines the name at a byte.
+    fn find_definition<'a, 't>(all: &'a [NamePlaces<'t>], byte: usize) -> Option<(&'t Path, &'t str, &'a Occurrence)> {
+        let wanted = Self::name_at(all, byte)?;
+        let means = |one: &&Occurrence| one.defines && one.name == wanted.name && wanted.kind.may_be(one.kind);
+        all.iter().find_map(|(path, text, list)| Some((*path, *text, list.iter().find(means)?)))
+    }
+
+    /// The name that the record of a definition gives, and every place of it among all of them.
+    fn places<'t>(all: &[NamePlaces<'t>], byte: usize) -> Option<(Occurrence, Vec<NamePlaces<'t>>)> {
+        let (_, _, defined) = Self::find_definition(all, byte)?;
+        let means = |one: &&Occurrence| one.name == defined.name && one.kind.may_be(defined.kind);
+        let of_text =
+            |(path, text, list): &NamePlaces<'t>| (*path, *text, list.iter().filter(means).cloned().collect());
+        Some((defined.clone(), all.iter().map(of_text).collect()))
     }
 
     fn location(&self, path: &Path, text: &str, range: Range<usize>) -> Value {
@@ -356,18 +370,14 @@ impl Answers<'_> {
 
     /// Where the name at a place is defined.
     pub fn definition(&self, position: PositionParams) -> Value {
-        let texts = self.texts();
-        let found = self.find_definition(&texts, self.byte(position));
-        let place = found.and_then(|(index, one)| {
-            let (path, text) = texts.get(index)?;
-            Some(self.location(path, text, one.range))
-        });
-        place.unwrap_or(Value::Null)
+        let all = self.named();
+        let found = Self::find_definition(&all, self.byte(position));
+        found.map_or(Value::Null, |(path, text, one)| self.location(path, text, one.range.clone()))
     }
 
     /// All places of the name at a place.
     pub fn references(&self, position: PositionParams) -> Value {
-        let Some((_, places)) = self.places(self.byte(position)) else { return json!([]) };
+        let Some((_, places)) = Self::places(&self.named(), self.byte(position)) else { return json!([]) };
         let all = places.iter().flat_map(|(path, text, list)| {
             list.iter().map(|one| self.location(path, text, one.range.clone())).collect::<Vec<_>>()
         });
@@ -377,11 +387,14 @@ impl Answers<'_> {
     /// The range of the name at a place, where it can have another.
     pub fn prepare_rename(&self, position: PositionParams) -> Value {
         let byte = self.byte(position);
-        let known = self.places(byte).and_then(|_| self.name_at(byte));
-        known.map_or(
-            Value::Null,
-            |one| json!({"range": self.index().range(one.range.clone()), "placeholder": self.text().get(one.range)}),
-        )
+        let all = self.named();
+        match (Self::find_definition(&all, byte), Self::name_at(&all, byte)) {
+            (Some(_), Some(one)) => {
+                let range = self.index().range(one.range.clone());
+                json!({"range": range, "placeholder": self.text().get(one.range.clone())})
+            }
+            _ => Value::Null,
+        }
     }
 
     /// The changes that give the name at a place another.
@@ -390,9 +403,11 @@ impl Answers<'_> {
     /// A place without a name that is defined, a new name that cannot be one, or one that is taken.
     pub fn rename(&self, position: PositionParams, new_name: &str) -> Result<Value, String> {
         let byte = self.byte(position);
-        let Some((kind, places)) = self.places(byte) else {
+        let all = self.named();
+        let Some((defined, places)) = Self::places(&all, byte) else {
             return Err("there is no name here that a record defines".into());
         };
+        let kind = defined.kind;
         let mark = match kind {
             NameKind::Class => "~",
             NameKind::Point => "*",
@@ -411,12 +426,9 @@ impl Answers<'_> {
         }
         let name = format!("{mark}{bare}");
         let upper = name.to_ascii_uppercase();
-        let is_taken = self.texts().iter().any(|(path, text)| {
-            let all = occurrences(text, &self.met(path));
-            all.iter().any(|one| one.defines && one.name == upper && one.kind.may_be(kind))
-        });
-        let is_same = places.iter().flat_map(|(_, _, list)| list).any(|one| one.name == upper);
-        if is_taken && !is_same {
+        let mut every = all.iter().flat_map(|(_, _, list)| list);
+        let is_taken = every.any(|one| one.defines && one.name == upper && one.kind.may_be(kind));
+        if is_taken && defined.name != upper {
             return Err(format!("there is a {} {name} already", kind.noun()));
         }
         let mut changes: BTreeMap<String, Vec<Value>> = BTreeMap::new();

@@ -5,6 +5,7 @@ use crate::kept::{KeptResult, LineAnalysis, LineRow, LineVerdict, LossTime, Moor
 use crate::record::{CaseRecord, CaseStatus, FileRead, FollowedCase, LinePeaks};
 use crate::stiffness::{CaseStiffness, STIFFNESS};
 use indexmap::{IndexMap, IndexSet};
+use std::ops::Range;
 
 /// What many cases of a study share.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -58,17 +59,20 @@ struct Rare {
     intact: Option<FollowedCase>,
 }
 
-/// A case.
+/// A case. Its name, cells and results stand behind those of others: small pieces of memory of their own among those that a decoded record
+/// gives back would make each allocation a search.
 #[derive(Clone, Debug)]
 pub(crate) struct SmallRecord {
-    case: Box<str>,
+    /// Where its name is in [`Records::names`].
+    case: Range<usize>,
     frame: u32,
     status: CaseStatus,
     seed: u64,
     seconds: f64,
-    /// Places of the texts of its cells.
-    cells: Box<[u32]>,
-    results: Box<[f64]>,
+    /// Where the places of the texts of its cells are in [`Records::cell_places`].
+    cells: Range<usize>,
+    /// Where the values of its results are in [`Records::results`].
+    results: Range<usize>,
     lines: Box<[SmallLine]>,
     rare: Option<Box<Rare>>,
 }
@@ -81,7 +85,15 @@ pub struct Records {
     /// By their text.
     seeds: IndexMap<String, SeedCheck>,
     cells: IndexSet<Box<str>>,
+    /// Names of all cases, one behind the other.
+    names: String,
+    /// Places in `cells`, those of a record together.
+    cell_places: Vec<u32>,
+    /// Values of results, those of a record together.
+    results: Vec<f64>,
     rows: Vec<SmallRecord>,
+    /// The frame of the record that came last.
+    last_frame: u32,
 }
 
 /// A record among others.
@@ -120,25 +132,32 @@ impl Records {
             start,
         } = record;
         let (columns, texts): (Vec<String>, Vec<String>) = values.into_iter().unzip();
-        let cells = texts.into_iter().map(|text| match self.cells.get_index_of(text.as_str()) {
+        let first_cell = self.cell_places.len();
+        self.cell_places.extend(texts.into_iter().map(|text| match self.cells.get_index_of(text.as_str()) {
             Some(known) => u32::try_from(known).unwrap_or(u32::MAX),
             None => place_in(&mut self.cells, text.into_boxed_str()),
-        });
-        let cells = cells.collect();
-        let numbers = results.iter().map(|result| result.value).collect();
+        }));
+        let first_result = self.results.len();
+        self.results.extend(results.iter().map(|result| result.value));
+        let first_letter = self.names.len();
+        self.names.push_str(&case);
         let heads = results.into_iter().map(|KeptResult { name, unit, is_least, value: _ }| (name, unit, is_least));
         let frame = Frame { columns, results: heads.collect(), title, units, caveats, read, version, start };
         let rare = Rare { reason, messages, peaks, intact };
         let is_plain =
             rare.reason.is_empty() && rare.messages.is_empty() && rare.peaks.is_empty() && rare.intact.is_none();
+        // most records share all of it with the one before them
+        if self.frames.get_index(self.last_frame as usize) != Some(&frame) {
+            self.last_frame = place_in(&mut self.frames, frame);
+        }
         SmallRecord {
-            case: case.into_boxed_str(),
-            frame: place_in(&mut self.frames, frame),
+            case: first_letter..self.names.len(),
+            frame: self.last_frame,
             status,
             seed,
             seconds,
-            cells,
-            results: numbers,
+            cells: first_cell..self.cell_places.len(),
+            results: first_result..self.results.len(),
             lines: lines.into_iter().map(|row| self.compact_line(row)).collect(),
             rare: (!is_plain).then(|| Box::new(rare)),
         }
@@ -211,7 +230,7 @@ impl Records {
 
     /// The record of a case.
     pub fn of_case(&self, name: &str) -> Option<RecordView<'_>> {
-        self.rows.iter().find(|row| *row.case == *name).and_then(|row| self.view(row))
+        self.iter().find(|record| record.case() == name)
     }
 
     fn view<'a>(&'a self, row: &'a SmallRecord) -> Option<RecordView<'a>> {
@@ -236,7 +255,7 @@ impl FromIterator<CaseRecord> for Records {
 impl<'a> RecordView<'a> {
     /// Name of the case.
     pub fn case(&self) -> &'a str {
-        &self.row.case
+        self.all.names.get(self.row.case.clone()).unwrap_or_default()
     }
 
     /// Its seed.
@@ -283,12 +302,14 @@ impl<'a> RecordView<'a> {
     pub fn values(&self) -> impl Iterator<Item = (&'a str, &'a str)> + Clone + use<'a> {
         let all = self.all;
         let cell = move |place: &u32| all.cells.get_index(*place as usize).map_or("", |text| &**text);
-        self.frame.columns.iter().map(String::as_str).zip(self.row.cells.iter().map(cell))
+        let places = all.cell_places.get(self.row.cells.clone()).unwrap_or_default();
+        self.frame.columns.iter().map(String::as_str).zip(places.iter().map(cell))
     }
 
     /// Its named results: names and values.
     pub fn results(&self) -> impl Iterator<Item = (&'a (String, String, bool), f64)> + Clone + use<'a> {
-        self.frame.results.iter().zip(self.row.results.iter().copied())
+        let values = self.all.results.get(self.row.results.clone()).unwrap_or_default();
+        self.frame.results.iter().zip(values.iter().copied())
     }
 
     /// Whether it has the same columns, results, files and version as another, so that what is found of them holds for both.

@@ -297,6 +297,27 @@ fn names_are_found_and_renamed_across_files() {
 }
 
 #[test]
+fn abbreviated_calls_of_a_macro_are_renamed_with_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // LINE_ alone could be either: it is no call of one
+    let text =
+        "&MACRO LINE_PAIR N\n&TYPE %N\n&ENDMACRO\n&MACRO LINE_END\n&TYPE x\n&ENDMACRO\nline_p 1\nLINE_\nLINE_PAIR 2\n";
+    let uri = file(path, "m.cif", text);
+    let mut client = Client::new(path);
+    client.open(&uri, text);
+    client.diagnostics(&uri);
+    let edit = |line, start, end| json!({"range": {"start": at(line, start), "end": at(line, end)}, "newText": "PAIR"});
+    for at_call in [at(0, 9), at(6, 2), at(8, 9)] {
+        let params = json!({"textDocument": {"uri": uri}, "position": at_call, "newName": "PAIR"});
+        let edits = client.request("textDocument/rename", params)["result"]["changes"].take();
+        assert_eq!(edits[&uri], json!([edit(0, 7, 16), edit(6, 0, 6), edit(8, 0, 9)]));
+    }
+    assert_eq!(client.ask("definition", &uri, at(6, 1))["range"]["start"], at(0, 7));
+    assert_eq!(client.leave(), Some(0));
+}
+
+#[test]
 fn layout_is_an_edit_and_decks_have_none() {
     let folder = tempfile::tempdir().unwrap();
     let mut client = Client::new(folder.path());
