@@ -138,6 +138,7 @@ pub const LID: OptionSpec = OptionSpec::ours(
     ],
     "the water surface of a rectangle takes energy from the waves, as a gap between hulls or a moonpool does by eddies; given again for each of them",
 )
+.many()
 .default("none");
 const CHECK: OptionSpec = OptionSpec::ours(
     "-CHECK",
