@@ -609,7 +609,7 @@ fn lid_between_barges_lowers_water_of_gap_and_is_kept_with_results() {
     for (lid, fault) in [
         ("-LID 0 -6 0 -10 0.1", "has no area"),
         ("-LID -20 -6 20 -10 0.1 -LID 0 -6 5 -10 0.1", "-LID 1 and -LID 2 overlap"),
-        ("-LID -20 -6 20 -10 -0.1", "-0.1"),
+        ("-LID -20 -6 20 -10 -0.1", "EPSILON of -LID of G_PRESSURE must be between 0 and 100"),
         ("-LID -1E6 -6 1E6 -10 0.1", "of lids"),
     ] {
         let (session, text, _) = run(lid, "");
