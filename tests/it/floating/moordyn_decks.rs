@@ -18,7 +18,7 @@ fn read(name: &str, options: &str) -> Model {
 }
 
 /// Tensions (N) of each line at the ends that are not in the ground, the first end first.
-fn tensions(model: &Model) -> Vec<(String, Vec<f64>)> {
+pub fn tensions(model: &Model) -> Vec<(String, Vec<f64>)> {
     let system = System::new(model, &[]).unwrap();
     let mut state = system.state(model);
     let found = equilibrium(&system, &mut state, &EquilibriumOptions::default()).unwrap();

@@ -1,10 +1,10 @@
 //! `STORE -MOORDYN`: decks that windlass writes, read back beside the numbers of MoorPy 1.3.0 [MOORPY-1] and MoorDyn 2.7.2 [MOORDYN-2]; what a deck cannot
 //! hold.
 
+use super::moordyn_decks::tensions;
 use crate::common;
 
 use windlass_model::Model;
-use windlass_solve::{EquilibriumOptions, System, equilibrium};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/moordyn");
 
@@ -37,22 +37,6 @@ fn read(files: &[(String, String)], options: &str) -> Model {
     session.run();
     assert!(session.errors == 0, "{:?}\n{}", session.reports, file(files, "deck.txt"));
     session.job.model.clone()
-}
-
-/// Tensions (N) of each line at its ends that are not in the ground.
-fn tensions(model: &Model) -> Vec<(String, Vec<f64>)> {
-    let system = System::new(model, &[]).unwrap();
-    let mut state = system.state(model);
-    let found = equilibrium(&system, &mut state, &EquilibriumOptions::default()).unwrap();
-    assert!(found.search.residual < 1e-9, "{found:?}");
-    let mut list: Vec<(String, Vec<f64>)> = model.connectors.values().map(|c| (c.name.clone(), Vec::new())).collect();
-    for part in system.contributions(&state.poses).unwrap() {
-        let own = part.connector.as_deref().and_then(|name| list.iter_mut().find(|(other, _)| other == name));
-        if let Some((_, ends)) = own {
-            ends.push(part.load.wrench.fixed_rows::<3>(0).norm());
-        }
-    }
-    list
 }
 
 /// Rows deck, line, TA, TB of a file of MoorPy's numbers.

@@ -22,6 +22,21 @@ def modes(k, count):
     return kn, np.sqrt(norms)
 
 
+def slopes_below(lam):
+    """Slopes at both sides of radial functions below the annulus: of F, which is 1 outside and 0 inside, and of G, the other way round."""
+    Fo, Fi, Go, Gi = (np.empty(len(lam)) for _ in range(4))
+    span = np.log(OUTER / INNER)
+    Fo[0], Fi[0], Go[0], Gi[0] = 1 / (OUTER * span), 1 / (INNER * span), -1 / (OUTER * span), -1 / (INNER * span)
+    a, b = lam[1:] * OUTER, lam[1:] * INNER
+    fall = np.exp(-(a - b))  # scaled Bessel functions: I ~ exp(x) ie, K ~ exp(-x) ke
+    down = i0e(a) * k0e(b) - i0e(b) * k0e(a) * fall**2
+    Fo[1:] = lam[1:] * (i1e(a) * k0e(b) + k1e(a) * i0e(b) * fall**2) / down
+    Fi[1:] = lam[1:] * (i1e(b) * k0e(b) + k1e(b) * i0e(b)) * fall / down
+    Go[1:] = -lam[1:] * (i1e(a) * k0e(a) + k1e(a) * i0e(a)) * fall / down
+    Gi[1:] = -lam[1:] * (i0e(a) * k1e(b) + i1e(b) * k0e(a) * fall**2) / down
+    return Fo, Fi, Go, Gi
+
+
 def elevation(k, count=80):
     kn, norm = modes(k, count)
     gap = DEPTH - DRAUGHT
@@ -41,17 +56,7 @@ def elevation(k, count=80):
     in_slope = np.empty(count)
     in_slope[0] = -k * jv(1, k * INNER) / jv(0, k * INNER)
     in_slope[1:] = kn[1:] * i1e(kn[1:] * INNER) / i0e(kn[1:] * INNER)
-    # below: F is 1 outside and 0 inside, G the other way round; slopes at both sides
-    Fo, Fi, Go, Gi = (np.empty(count) for _ in range(4))
-    span = np.log(OUTER / INNER)
-    Fo[0], Fi[0], Go[0], Gi[0] = 1 / (OUTER * span), 1 / (INNER * span), -1 / (OUTER * span), -1 / (INNER * span)
-    a, b = lam[1:] * OUTER, lam[1:] * INNER
-    fall = np.exp(-(a - b))  # scaled Bessel functions: I ~ exp(x) ie, K ~ exp(-x) ke
-    down = i0e(a) * k0e(b) - i0e(b) * k0e(a) * fall**2
-    Fo[1:] = lam[1:] * (i1e(a) * k0e(b) + k1e(a) * i0e(b) * fall**2) / down
-    Fi[1:] = lam[1:] * (i1e(b) * k0e(b) + k1e(b) * i0e(b)) * fall / down
-    Go[1:] = -lam[1:] * (i1e(a) * k0e(a) + k1e(a) * i0e(a)) * fall / down
-    Gi[1:] = -lam[1:] * (i0e(a) * k1e(b) + i1e(b) * k0e(a) * fall**2) / down
+    Fo, Fi, Go, Gi = slopes_below(lam)
     # incident wave J0(k r) cosh k(z + h)/cosh kh as a multiple of Z_0
     unit = norm[0] / np.cosh(k * DEPTH)
     at, slope = unit * jv(0, k * OUTER), -unit * k * jv(1, k * OUTER)

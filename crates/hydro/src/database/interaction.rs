@@ -87,11 +87,23 @@ pub fn own_radiation(model: &Model, body: &Body) -> Result<Option<Radiation>, Cl
     Ok(BodyGroup::new(model, &data.source)?.pair(&key, &key).cloned())
 }
 
-/// All interactions of a model, each as the radiation of one body, with its kernel.
+/// The waves that a body radiates on another, as the radiation of one body.
+pub struct InteractionRadiation<'m> {
+    /// Both bodies.
+    pub pair: InteractingBodies<'m>,
+    /// Added mass and damping about the origins of both, in the axes of each.
+    pub data: Database,
+    /// Its kernel.
+    pub radiation: Radiation,
+    /// The radiation of the body that they act on, by its own motions.
+    pub own: Option<Radiation>,
+}
+
+/// All interactions of a model.
 ///
 /// # Errors
 /// Databases of one frequency.
-pub fn interaction_radiations(model: &Model) -> Result<Vec<(InteractingBodies<'_>, Database, Radiation)>, ClassError> {
+pub fn interaction_radiations(model: &Model) -> Result<Vec<InteractionRadiation<'_>>, ClassError> {
     let mut groups: Vec<(String, BodyGroup)> = Vec::new();
     let mut list = Vec::new();
     for pair in model.interactions() {
@@ -99,9 +111,10 @@ pub fn interaction_radiations(model: &Model) -> Result<Vec<(InteractingBodies<'_
         if !groups.iter().any(|(source, _)| *source == data.source) {
             groups.push((data.source.clone(), BodyGroup::new(model, &data.source)?));
         }
-        let group = groups.iter().find(|(source, _)| *source == data.source);
-        if let Some(radiation) = group.and_then(|(_, group)| group.pair(pair.on.0, pair.by.0)) {
-            list.push((pair, data, radiation.clone()));
+        let Some((_, group)) = groups.iter().find(|(source, _)| *source == data.source) else { continue };
+        if let Some(radiation) = group.pair(pair.on.0, pair.by.0).cloned() {
+            let own = group.pair(pair.on.0, pair.on.0).cloned();
+            list.push(InteractionRadiation { pair, data, radiation, own });
         }
     }
     Ok(list)
@@ -196,12 +209,11 @@ pub fn gather_interactions(
     under_way: Option<Option<&Sea>>,
 ) -> Result<Vec<GatheredInteraction>, ClassError> {
     let mut list = Vec::new();
-    for (pair, _, radiation) in interaction_radiations(model)? {
+    for InteractionRadiation { pair, data: _, radiation, own } in interaction_radiations(model)? {
         let load = match under_way {
             None => None,
             Some(sea) => {
                 let attached = pair.on.1.database.as_ref();
-                let own = own_radiation(model, pair.on.1)?;
                 let usual = own.as_ref().map_or_else(|| radiation.memory(), Radiation::memory);
                 let length = attached.and_then(|attached| attached.memory).unwrap_or(usual);
                 let step = super::attached::memory_step(model);

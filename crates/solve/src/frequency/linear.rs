@@ -9,7 +9,7 @@ use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
-use windlass_hydro::database::interaction::{interaction_radiations, own_radiation};
+use windlass_hydro::database::interaction::{InteractionRadiation, interaction_radiations, own_radiation};
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
@@ -96,7 +96,9 @@ impl LinearInteraction {
     fn all(model: &Model, system: &System) -> Result<Vec<Self>, SolveError> {
         let number = |key: &str| system.nodes.iter().position(|node| node.key == key);
         let mut list = Vec::new();
-        for (pair, data, radiation) in interaction_radiations(model).map_err(SolveError::new)? {
+        for InteractionRadiation { pair, data, radiation, own: _ } in
+            interaction_radiations(model).map_err(SolveError::new)?
+        {
             let (Some(on), Some(by)) = (number(pair.on.0), number(pair.by.0)) else { continue };
             let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
             list.push(LinearInteraction { on, by, data, infinite: radiation.infinite, factor });
