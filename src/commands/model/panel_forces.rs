@@ -703,11 +703,14 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span
         };
         // the error falls with the square of the size
         let finer = meshed.size * (POOR_AGREEMENT / apart).sqrt();
-        let text = format!(
+        let mut text = format!(
             "{all}: mean drift {ways} differs by {:.1} % of the largest, more than {:.0} %: the panels are too large, -PANEL {finer:.2} would agree",
             100.0 * apart,
             100.0 * POOR_AGREEMENT
         );
+        if meshed.lids.iter().any(|[.., epsilon]| *epsilon > 0.0) {
+            text.push_str(", or damped lids take momentum of the waves, which the drift far away counts as that of the bodies: EPSILON 0 shows what is of the panels");
+        }
         job.warn(text, span);
     }
     let shortest = meshed.frequencies.last().map_or(f64::INFINITY, |w| wave_length(*w, meshed.water));
