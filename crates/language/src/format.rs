@@ -2,10 +2,11 @@
 //!
 //! What a layout is: records inside `&IF`, `&LOOP` and `&MACRO` are two blanks further in than the block, records of menus are not (which
 //! record opens a menu hangs on the model and on files). A line that continues a record is two blanks further in than its record, and four
-//! where it goes on with the values of an option that began a line. One blank stands between words; between numbers two where the writer has left
+//! where it goes on with the values of an option that began a line; lines that the writer has begun below the second word of their record
+//! stay below it. One blank stands between words; between numbers two where the writer has left
 //! two or more. Lines of the same form one below the other are a table: where one of them has further blanks, all their words stand in
-//! columns, numbers flush right but for a first word; comments behind records likewise. No blanks end a line, no two empty lines follow each other, and the last
-//! line has its end. Case, words, commas, quotes, comments and `\` stay as they are.
+//! columns, numbers by their units (decimal points below each other) but for a first word; comments behind records likewise. No blanks end a
+//! line, no two empty lines follow each other, and the last line has its end. Case, words, commas, quotes, comments and `\` stay as they are.
 //!
 //! Records whose text counts as typed ([`Spacing::AsTyped`], and all that hold a string function) are only moved as a whole.
 
@@ -42,6 +43,9 @@ const DEEPEST_LEVEL: usize = 32;
 /// Widest line that is laid out in columns (characters), for the same reason.
 const WIDEST_ROW: usize = 240;
 
+/// Longest first word below whose second one lines that continue a record may begin (characters), for the same reason.
+const LONGEST_HUNG: usize = 24;
+
 /// What the lexer takes for a blank.
 fn is_blank(c: char) -> bool {
     matches!(c, ' ' | '\t' | '\r' | '\n' | '\u{b}' | '\u{c}')
@@ -59,6 +63,15 @@ struct Cell<'t> {
     gap: usize,
 }
 
+impl Cell<'_> {
+    /// Characters up to the units of a number and behind them: `-1.25` has 2 and 3, `2e6` 1 and 2.
+    fn parts(&self) -> [usize; 2] {
+        let digits = self.text.trim_start_matches(['+', '-']);
+        let behind = width(digits.trim_start_matches(|c: char| c.is_ascii_digit()));
+        [width(self.text) - behind, behind]
+    }
+}
+
 /// A line of the layout.
 enum Body<'t> {
     /// Text that stays as it is.
@@ -71,6 +84,8 @@ struct Line<'t> {
     indent: usize,
     /// It continues the record of the line before.
     continues: bool,
+    /// The lines that continue its record begin below its second word, which therefore stands one blank behind the first.
+    has_hung_lines: bool,
     body: Body<'t>,
 }
 
@@ -86,6 +101,7 @@ impl<'t> Line<'t> {
     fn is_alike(&self, other: &Line<'_>) -> bool {
         let (own, others) = (self.cells(), other.cells());
         self.continues == other.continues
+            && !(self.has_hung_lines || other.has_hung_lines)
             && self.indent == other.indent
             && own.len() > 1
             && own.len() == others.len()
@@ -134,7 +150,7 @@ fn lay_out<'t>(text: &'t str, commands: &Commands<'_>) -> Option<(Vec<Line<'t>>,
         (at, ends_open) = (next, open);
         if typed.trim_matches(is_blank).is_empty() {
             if !was_empty {
-                lines.push(Line { indent: 0, continues: false, body: Body::Kept("") });
+                lines.push(Line { indent: 0, continues: false, has_hung_lines: false, body: Body::Kept("") });
             }
             was_empty = true;
             continue;
@@ -211,9 +227,14 @@ fn lay_out_typed<'t>(record: &'t str, indent: usize, lines: &mut Vec<Line<'t>>) 
     for (index, line) in record.split('\n').enumerate() {
         let kept = line.trim_end_matches(is_blank);
         let line = if index > 0 || is_odd(line) {
-            Line { indent: 0, continues: index > 0, body: Body::Kept(kept) }
+            Line { indent: 0, continues: index > 0, has_hung_lines: false, body: Body::Kept(kept) }
         } else {
-            Line { indent, continues: false, body: Body::Kept(kept.trim_start_matches(is_blank)) }
+            Line {
+                indent,
+                continues: false,
+                has_hung_lines: false,
+                body: Body::Kept(kept.trim_start_matches(is_blank)),
+            }
         };
         lines.push(line);
     }
@@ -222,9 +243,15 @@ fn lay_out_typed<'t>(record: &'t str, indent: usize, lines: &mut Vec<Line<'t>>) 
 /// A record of words, or a comment.
 fn lay_out_words<'t>(record: &'t str, indent: usize, lines: &mut Vec<Line<'t>>) {
     let mut gives_values = false;
+    let hung = hung_below(record);
     for (index, line) in record.split('\n').enumerate() {
         if is_odd(line) {
-            lines.push(Line { indent: 0, continues: index > 0, body: Body::Kept(line.trim_end_matches(is_blank)) });
+            lines.push(Line {
+                indent: 0,
+                continues: index > 0,
+                has_hung_lines: false,
+                body: Body::Kept(line.trim_end_matches(is_blank)),
+            });
             continue;
         }
         let trimmed = line.trim_matches(is_blank);
@@ -237,9 +264,27 @@ fn lay_out_words<'t>(record: &'t str, indent: usize, lines: &mut Vec<Line<'t>>) 
             _ => 1,
         };
         gives_values |= begins_option && index > 0;
-        let indent = if trimmed.is_empty() { 0 } else { indent + STEP * further };
-        lines.push(Line { indent, continues: index > 0, body });
+        let indent = match hung {
+            _ if trimmed.is_empty() => 0,
+            Some(further) if index > 0 => indent + further,
+            _ => indent + STEP * further,
+        };
+        lines.push(Line { indent, continues: index > 0, has_hung_lines: index == 0 && hung.is_some(), body });
     }
+}
+
+/// How much further in than its record the lines that continue it are, where the writer has begun all of them below the second word.
+fn hung_below(record: &str) -> Option<usize> {
+    let mut lines = record.split('\n');
+    let first = lines.next()?;
+    let margin = |line: &str| width(line) - width(line.trim_start_matches(is_blank));
+    let Body::Words { cells, .. } = read_line(first.trim_matches(is_blank)) else { return None };
+    let [word, second, ..] = cells.as_slice() else { return None };
+    let below = margin(first) + width(word.text) + second.gap;
+    let mut others = lines.filter(|line| !line.trim_matches(is_blank).is_empty()).peekable();
+    let is_hung = others.peek().is_some() && !record.contains('\t') && others.all(|line| margin(line) == below);
+    let further = width(word.text) + 1;
+    (is_hung && !is_odd(first) && further <= LONGEST_HUNG).then_some(further)
 }
 
 /// The words and the comment of a line without blanks around it.
@@ -302,18 +347,32 @@ fn align(table: &[Line<'_>]) -> Vec<String> {
     let columns = table.first().map_or(0, |line| line.cells().len());
     let cell = |line: usize, column: usize| table.get(line).and_then(|line: &Line<'_>| line.cells().get(column));
     let cells = |column: usize| (0..table.len()).filter_map(move |line| cell(line, column));
-    // blanks before each column, where none are filled in
+    // blanks before each column, where none are filled in: what the writer has left in all lines, or left free from top to bottom
+    let mut ends = vec![0; table.len()];
     let gaps: Vec<usize> = (0..columns)
         .map(|column| {
             let numbers = column > 1 && cells(column).chain(cells(column - 1)).all(|cell| cell.is_number);
             let least = cells(column).map(|cell| cell.gap).min().unwrap_or(0);
-            if column == 0 { 0 } else { 1 + usize::from(numbers && least > 1) }
+            let farthest = ends.iter().copied().max().unwrap_or(0);
+            let nearest = ends.iter().zip(cells(column)).map(|(end, cell)| end + cell.gap).min().unwrap_or(0);
+            for (end, cell) in ends.iter_mut().zip(cells(column)) {
+                *end += cell.gap + width(cell.text);
+            }
+            if column == 0 { 0 } else { 1 + usize::from(numbers && least > 1 && nearest != farthest + 1) }
         })
         .collect();
     let is_wide = (1..columns).any(|column| cells(column).any(|cell| Some(&cell.gap) > gaps.get(column)));
-    let widths: Vec<usize> =
-        (0..columns).map(|column| cells(column).map(|cell| width(cell.text)).max().unwrap_or(0)).collect();
-    let total = widths.iter().chain(&gaps).sum::<usize>();
+    // of each column: characters up to the units of its numbers and behind them; a column of words has its width behind
+    let parts = |index: usize, cell: &Cell<'_>| {
+        if cell.is_number && index > 0 { cell.parts() } else { [0, width(cell.text)] }
+    };
+    let widths: Vec<[usize; 2]> = (0..columns)
+        .map(|column| {
+            let widest = |part: usize| cells(column).map(|cell| parts(column, cell)[part]).max().unwrap_or(0);
+            [widest(0), widest(1)]
+        })
+        .collect();
+    let total = widths.as_flattened().iter().chain(&gaps).sum::<usize>();
     let in_columns = table.len() > 1 && is_wide && total <= WIDEST_ROW;
     table
         .iter()
@@ -329,9 +388,8 @@ fn align(table: &[Line<'_>]) -> Vec<String> {
             // blanks that fill a column are written only where a word follows
             let mut owed = 0;
             for (index, ((cell, gap), column)) in cells.iter().zip(&gaps).zip(&widths).enumerate() {
-                let filling = if in_columns { column - width(cell.text) } else { 0 };
-                let is_right = cell.is_number && index > 0;
-                let (before, behind) = if is_right { (filling, 0) } else { (0, filling) };
+                let own = parts(index, cell);
+                let [before, behind] = if in_columns { [column[0] - own[0], column[1] - own[1]] } else { [0; 2] };
                 row.push_str(&" ".repeat(owed + gap + before));
                 row.push_str(cell.text);
                 owed = behind;

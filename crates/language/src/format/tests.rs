@@ -71,6 +71,23 @@ fn lines_of_one_form_are_a_table_where_blanks_were_put_in() {
 }
 
 #[test]
+fn numbers_of_a_column_stand_by_their_decimal_points() {
+    let typed = "*A -28.3377 47.43 -5  1\n*B 4 -40.5 50.4 1e3\n*C  40 -40 -63.625 10.\n";
+    assert_eq!(
+        laid_out(typed),
+        "*A -28.3377  47.43  -5      1\n*B   4      -40.5   50.4    1e3\n*C  40      -40    -63.625 10.\n"
+    );
+}
+
+#[test]
+fn lines_begun_below_the_second_word_stay_below_it() {
+    let typed = " H_AMASS  1 0 \\\n          0 9000 \\\n          $ why\n          0 1\n";
+    assert_eq!(laid_out(typed), "H_AMASS 1 0 \\\n        0 9000 \\\n        $ why\n        0 1\n");
+    let other = "H_AMASS 1 0 \\\n        0 9000 \\\n         0 1\n";
+    assert_eq!(laid_out(other), "H_AMASS 1 0 \\\n  0 9000 \\\n  0 1\n");
+}
+
+#[test]
 fn groups_of_numbers_and_text_keep_their_blanks() {
     assert_eq!(laid_out("H_DAMP 0 0   0 0  $  a  b \n"), "H_DAMP 0 0  0 0  $  a  b\n");
     assert_eq!(laid_out(" &TYPE  a   b \\ \n   c\n&T  x\n"), "&TYPE  a   b \\\n   c\n&T  x\n");
@@ -91,7 +108,7 @@ fn ends_of_lines_stay_those_of_the_first_and_an_open_end_stays_open() {
 
 /// What has a meaning to the lexer, with letters and digits.
 const SIGNS: &str = " \t\r\n,$\\'\"%ABCD0123456789*~:#&()=.-";
-const PIECES: [&str; 20] = [
+const PIECES: [&str; 22] = [
     "&IF ",
     "&ENDIF",
     "&LOOP\n",
@@ -106,6 +123,8 @@ const PIECES: [&str; 20] = [
     "  ",
     "END\n",
     "*A 1  2\n*B 10 2\n",
+    "*A 1.25 3  4\n*B 1 -30  4.5\n",
+    "A 1 \\\n  2\n",
     "-LEN 5",
     " $ x  \n",
     "&NUMBER(REAL  1)",
