@@ -69,7 +69,11 @@ fn column<T, E>(solved: &[Result<T, E>], number: impl Fn(&T) -> f64) -> Vec<f64>
 }
 
 /// The failed lines: their numbers from 0 and why. With `raise` the first of them is an exception.
-fn failures<T>(py: Python<'_>, solved: &[Result<T, LineError>], raise: bool) -> PyResult<Vec<(usize, String)>> {
+fn failures<T, E: std::fmt::Display>(
+    py: Python<'_>,
+    solved: &[Result<T, E>],
+    raise: bool,
+) -> PyResult<Vec<(usize, String)>> {
     let failed = solved.iter().enumerate().filter_map(|(at, answer)| Some((at, answer.as_ref().err()?)));
     if raise {
         let mut failed = failed;
@@ -126,24 +130,39 @@ pub fn solve<'py>(
     ];
     let count = count(&inputs)?;
     let [x, z, length, ea, w, friction] = &inputs;
-    let solved = make_each(py, count, (threads, LINES_A_TASK), |at| -> Result<EndForces, LineError> {
+    let solve = |at: usize| -> Result<EndForces, LineError> {
         let segment = Segment { length: length.get(at), weight: w.get(at), ea: ea.get(at) };
         let bottom = seabed.then(|| FlatBottom { friction: friction.get(at) });
         segment.solve_end_forces(x.get(at), z.get(at), bottom)
-    })?;
-    let failed = failures(py, &solved, raise_)?;
+    };
+    let pulls = |f: &EndForces| [f.fairlead[0], f.fairlead[1], f.anchor[0], f.anchor[1], f.grounded];
+    if !stiffness {
+        let names = ["h", "v", "anchor_h", "anchor_v", "grounded"];
+        return solve_rows(py, count, (threads, raise_), names, |at| solve(at).map(|f| pulls(&f)));
+    }
+    let names = ["h", "v", "anchor_h", "anchor_v", "grounded", "kxx", "kxz", "kzx", "kzz"];
+    solve_rows(py, count, (threads, raise_), names, |at| {
+        solve(at).map(|f| {
+            let ([h, v, anchor_h, anchor_v, grounded], [[kxx, kxz], [kzx, kzz]]) = (pulls(&f), f.stiffness);
+            [h, v, anchor_h, anchor_v, grounded, kxx, kxz, kzx, kzz]
+        })
+    })
+}
+
+/// Columns of what is found of each of so many lines. Rows hold no more than is asked for: the memory that all of them take is gone through
+/// once more for each column, which costs more than anything else here beside the lines themselves.
+fn solve_rows<'py, const N: usize>(
+    py: Python<'py>,
+    count: usize,
+    (threads, raise): (usize, bool),
+    names: [&str; N],
+    row: impl Fn(usize) -> Result<[f64; N], LineError> + Sync + Send,
+) -> PyResult<Solved<'py>> {
+    let solved = make_each(py, count, (threads, LINES_A_TASK), |at| row(at).map_err(Box::new))?;
+    let failed = failures(py, &solved, raise)?;
     let columns = Columns::new(py);
-    columns.add("h", column(&solved, |f| f.fairlead[0]))?;
-    columns.add("v", column(&solved, |f| f.fairlead[1]))?;
-    columns.add("anchor_h", column(&solved, |f| f.anchor[0]))?;
-    columns.add("anchor_v", column(&solved, |f| f.anchor[1]))?;
-    columns.add("grounded", column(&solved, |f| f.grounded))?;
-    if stiffness {
-        for (row, names) in [["kxx", "kxz"], ["kzx", "kzz"]].into_iter().enumerate() {
-            for (at, name) in names.into_iter().enumerate() {
-                columns.add(name, column(&solved, |f| f.stiffness[row][at]))?;
-            }
-        }
+    for (index, name) in names.into_iter().enumerate() {
+        columns.add(name, column(&solved, |row| row[index]))?;
     }
     Ok((columns.made, failed))
 }

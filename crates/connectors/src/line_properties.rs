@@ -59,5 +59,11 @@ pub fn seabed(seabed: &Seabed) -> Result<LineSeabed, ClassError> {
     if seabed.across.is_some_and(|across| across != seabed.along) {
         return Err(ClassError::new("its friction across the line is not that along it"));
     }
-    Ok(LineSeabed { stiffness: seabed.stiffness, damping: seabed.damping, friction: seabed.along, depth: seabed.depth })
+    Ok(LineSeabed {
+        stiffness: seabed.stiffness,
+        damping: seabed.damping,
+        friction: seabed.along,
+        friction_damping: seabed.friction_damping,
+        depth: seabed.depth,
+    })
 }

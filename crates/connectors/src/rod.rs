@@ -43,6 +43,8 @@ const ROD_LISTS: &[&[OptionSpec]] = &[
         m::CLUMP_DRAG,
         m::CLAMP,
         m::SEABED,
+        m::VERTICAL_PUSH,
+        m::MID_TENSION,
     ],
 ];
 
@@ -65,7 +67,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
              MOSES allows 300 over all segments, here memory is the limit. The rod feels waves, current, wind, growth and bottom along itself, at rest without \
              the waves. Its weight is that of -WTPLEN or of the wall, empty; what is in it comes by -T_PRESSURE of &ENV. -EI 0 makes a chain or rope, which \
              neither pushes nor bends; with a bore it keeps its wall: contents, heat and pressure act. -CLUMP is a weight in water, taken as a mass without volume; negative: a buoy without mass, CLEN above the line. -ROPE: a standard linear solid. Its ends turn freely but for -CLAMP. \
-             Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -CLAMP. No convolution.",
+             Per line, on any record: -FRICTION, -SLOPE, -DEPANCHOR, -SEABED, -VERTICAL_PUSH, -CLAMP. No convolution.",
     example: "MEDIT\n~PIPE ROD 12.75 0.5 -LEN 1000 -REFINE 50\nEND\n&STATUS CLASS ~PIPE",
     ..CommandSpec::new("ROD", "line with bending stiffness and its own dynamics")
 };
@@ -74,7 +76,7 @@ static ROD_SPEC: CommandSpec = CommandSpec {
 const REFINE: OptionSpec =
     OptionSpec { values: &[ValueSpec::new("N", Kind::Integer, "number of elements").positive()], ..o::REFINE };
 /// Options of the whole line.
-const PER_LINE: [OptionSpec; 4] = [m::SEABED, o::FRICTION, o::SLOPE, o::DEPANCHOR];
+const PER_LINE: [OptionSpec; 5] = [m::SEABED, m::VERTICAL_PUSH, o::FRICTION, o::SLOPE, o::DEPANCHOR];
 /// Most elements of a line: the limit of the engine.
 const MAX_ELEMENTS: i64 = windlass_line_dynamics::MAX_ELEMENTS as i64;
 
@@ -90,6 +92,7 @@ struct RodClass {
     seabed: Seabed,
     holds: [Option<EndFixity>; 2],
     slam: bool,
+    has_middle_end_tension: bool,
 }
 
 impl RodClass {
@@ -97,7 +100,12 @@ impl RodClass {
         let count = |s: &LineSection| usize::try_from(s.refine).unwrap_or(1).max(1);
         let part = |(s, f): (&LineSection, &Flexure)| -> LinePart { f.part(s, count(s), around) };
         let parts = self.sections.iter().zip(&self.flexures).map(part).collect();
-        LineDescription { slam: self.slam, ..m::description("ROD", parts, self.seabed, self.holds) }
+        let mut made = m::description("ROD", parts, self.seabed, self.holds);
+        if self.has_middle_end_tension {
+            made.notes
+                .push("the tension at its ends is that in the middle of its end elements: -MID_TENSION".to_string());
+        }
+        LineDescription { slam: self.slam, has_middle_end_tension: self.has_middle_end_tension, ..made }
     }
 }
 
@@ -193,6 +201,7 @@ impl SegmentedClass for RodClass {
         self.flexures.push(flexure);
         (self.clamps, self.holds, self.elements) = (clamps, holds, elements);
         self.slam |= args.has(&m::SLAM);
+        self.has_middle_end_tension |= args.has(&m::MID_TENSION);
         if self.per_line.take(args, &PER_LINE) {
             self.seabed = m::parse_seabed(&self.per_line);
         }

@@ -4,7 +4,7 @@
 //! the turning of the body, all in the axes of the part [MORISON-1950]:
 //! - buoyancy: `rho g V` upward at the point;
 //! - drag: `1/2 rho A |u - v| (u - v)` along each axis with its area A, and `-1/2 rho B |w| w` about each axis with its B (m5);
-//! - waves: `rho V (1 + Ca) a` along each axis; the added mass `rho Ca V` is part of the inertia of the body.
+//! - waves: `rho V (1 + Ca) a` along each axis, unless the lump ignores it; the added mass `rho Ca V` is part of the inertia of the body.
 //!
 //! Each acts in the share of a sphere of the volume that is under the mean level, or, of a body of constant volume, always. The added mass is
 //! whole wherever the point is. The velocity and acceleration of waves are those of the place expected at the end of a step.
@@ -62,7 +62,7 @@ pub(super) fn build_lump_loads(
             rotary: Vector3::from(lump.rotary_drag) * (0.5 * density),
         }));
     }
-    if let Some(sea) = around.sea.filter(|_| lump.volume > 0.0) {
+    if let Some(sea) = around.sea.filter(|_| lump.volume > 0.0 && !lump.ignores_water_acceleration) {
         let mass = Vector3::from(lump.added).map(|ca| density * lump.volume * (1.0 + ca));
         let mass = axes * Matrix3::from_diagonal(&mass) * axes.transpose();
         list.push(Box::new(LumpInertia { steady: Arc::clone(around.steady), sea: Arc::clone(sea), position, mass }));
@@ -268,6 +268,7 @@ mod tests {
             drag_areas: [2.0, 3.0, 5.0],
             rotary_drag: [7.0, 11.0, 13.0],
             added: [0.5, 1.0, 1.5],
+            ignores_water_acceleration: false,
         };
         let around = LumpSurroundings { steady: &steady, sea: None, is_under_way: true };
         build_lump_loads(&lump, (Vector3::new(0.4, -0.2, 0.3), Matrix3::identity()), &around)

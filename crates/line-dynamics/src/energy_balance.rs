@@ -331,7 +331,7 @@ impl BalanceSample {
                 contact(*bottom, ground, soft, area, x, v, &trial.friction_direction[node], &trial.stuck_at[node], true)
             };
             let acts = at(v).map_or_else(Vector3::zeros, |c| c.force[0] + c.force[1]);
-            let still = at(&Vector3::zeros()).map_or_else(Vector3::zeros, |c| c.force[0]);
+            let still = at(&Vector3::zeros()).map_or_else(Vector3::zeros, |c| c.elastic);
             self.power.bottom += (acts - still).dot(v);
             self.force += acts;
         }

@@ -135,7 +135,8 @@ impl SeabedShape for PlaneBottom {
 /// Along it Coulomb friction, with its own coefficient along and across the rod: N mu e opposite to e = d/d0 + v/v0, no
 /// larger than one, where d is the way from the place at which the node sticks. That place stays where it is while the
 /// way is less than d0, and is drawn along behind the node beyond. A rod that is pulled by less than mu N therefore
-/// gives way by less than d0, slowly by v0, and stays there.
+/// gives way by less than d0, slowly by v0, and stays there. With a friction damping C it is that of MoorDyn [MOORDYN-2]: mu C v per area,
+/// no larger than N mu, and none at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeabedLaw {
     /// Normal stiffness per area (N/m3).
@@ -152,6 +153,20 @@ pub struct SeabedLaw {
     pub friction_speed: f64,
     /// Way d0 within which it comes to be whole (m).
     pub friction_travel: f64,
+    /// Friction by speed alone: what an area feels of it at a coefficient of one (N s/m3). None: by the way d0 and the speed v0.
+    pub friction_damping: Option<f64>,
+    /// Where it pushes.
+    pub push: SeabedPush,
+}
+
+/// Direction in which the bottom pushes a rod. On a level bottom both are the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SeabedPush {
+    /// Along its normal, by the penetration along that.
+    #[default]
+    Normal,
+    /// Straight up, by the penetration straight down, as in MoorDyn [MOORDYN-2]: a rod on a slope then has a tension that is not its own.
+    Vertical,
 }
 
 impl SeabedLaw {
@@ -165,6 +180,11 @@ impl SeabedLaw {
         self.friction_along > 0.0 || self.friction_across > 0.0
     }
 
+    /// Whether its friction holds a rod that does not move.
+    pub fn holds_at_rest(&self) -> bool {
+        self.rough() && self.friction_damping.is_none()
+    }
+
     /// A bottom of a stiffness (N/m2: force per length and penetration) without friction and damping.
     pub fn elastic(stiffness: f64) -> Self {
         SeabedLaw {
@@ -175,6 +195,8 @@ impl SeabedLaw {
             friction_across: 0.0,
             friction_speed: 0.01,
             friction_travel: 0.005,
+            friction_damping: None,
+            push: SeabedPush::Normal,
         }
     }
 }

@@ -80,8 +80,8 @@ pub use coupled::{CoupledLine, CoupledLines, Surroundings};
 pub use ends::{RodEnd, RodEndMotion};
 pub use energy_balance::{Energy, RodEnergyBalance, Work};
 pub use environment::{
-    FluidField, FluidState, LineEnvironment, PlaneBottom, SeabedLaw, SeabedShape, Support, SupportLaw, SupportReaction,
-    SupportTarget, UniformFluid,
+    FluidField, FluidState, LineEnvironment, PlaneBottom, SeabedLaw, SeabedPush, SeabedShape, Support, SupportLaw,
+    SupportReaction, SupportTarget, UniformFluid,
 };
 pub use error::RodError;
 pub use mesh::{BYTES_PER_ELEMENT, MAX_ELEMENTS, Rod};

@@ -134,14 +134,14 @@ impl<'a> RestSearch<'a> {
     fn touches_rough_bottom(&self) -> bool {
         let (rod, world) = (self.pseudo.rod, self.pseudo.world);
         let near = 1e-3 * rod.shortest();
-        let rough = world.bottom.filter(|(_, ground)| ground.rough());
+        let rough = world.bottom.filter(|(_, ground)| ground.holds_at_rest());
         rough.is_some_and(|(bottom, _)| self.pseudo.trial.x.iter().any(|x| x.z < bottom.height(x.x, x.y).0 + near))
     }
 
     /// Whether water or air moves along the trial, of a world whose bottom has friction.
     fn has_moving_fluid(&mut self) -> bool {
         let world = self.pseudo.world;
-        if !world.bottom.is_some_and(|(_, ground)| ground.rough()) {
+        if !world.bottom.is_some_and(|(_, ground)| ground.holds_at_rest()) {
             return false;
         }
         sample_fluid(world, self.pseudo.trial.time, self.pseudo.trial);

@@ -59,7 +59,7 @@ const MIN_DRAG_FRICTION_SHARE: f64 = 1e-3;
 
 /// The pulled end: the one above the bottom where the other lies on it. None without friction, or with both ends up or down.
 pub(super) fn pulled_end(rod: &Rod, world: &LineEnvironment, ends: &[RodEnd; 2]) -> Option<usize> {
-    let (bottom, _) = world.bottom.filter(|(_, ground)| ground.rough())?;
+    let (bottom, _) = world.bottom.filter(|(_, ground)| ground.holds_at_rest())?;
     let last = rod.elements.len() - 1;
     let lies = |side: usize| {
         let x = ends[side].motion?.position;

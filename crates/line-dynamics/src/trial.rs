@@ -213,7 +213,7 @@ pub(super) fn set_friction_directions(rod: &Rod, state: &RodState, world: &LineE
 /// Where the nodes stick at the end of a step.
 pub(super) fn advance_stick_points(world: &LineEnvironment, from: &RodState, next: &mut RodState) {
     next.stuck.copy_from_slice(&next.position);
-    if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.rough()) {
+    if let Some((bottom, ground)) = world.bottom.filter(|(_, g)| g.holds_at_rest()) {
         for ((stuck, x), before) in next.stuck.iter_mut().zip(&next.position).zip(&from.stuck) {
             *stuck = update_stick_point(bottom, &ground, x, before);
         }

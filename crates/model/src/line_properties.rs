@@ -64,6 +64,8 @@ pub struct LineSeabed {
     pub damping: Option<f64>,
     /// Coefficient of friction.
     pub friction: f64,
+    /// Friction by speed alone: of an area, at a coefficient of one (N s/m3).
+    pub friction_damping: Option<f64>,
     /// Depth below z = 0 (m), where the class gives one.
     pub depth: Option<f64>,
 }

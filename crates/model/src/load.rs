@@ -99,6 +99,8 @@ pub struct Lump {
     pub rotary_drag: [f64; 3],
     /// Coefficients of added mass along them, on the displaced mass.
     pub added: [f64; 3],
+    /// Whether the acceleration of the water does nothing: waves then act by drag alone.
+    pub ignores_water_acceleration: bool,
 }
 
 /// A load on a point of a part.

@@ -1,6 +1,7 @@
 //! `JUNCTION`: a point in the sea where lines meet.
 
 use crate::commands::menu;
+use crate::commands::model::loads::NO_WAVE_INERTIA;
 use crate::commands::{Call, Command, Effect, Job};
 use windlass_base::choice::Dof;
 use windlass_base::diagnostic::with_article;
@@ -66,7 +67,7 @@ static SPEC: CommandSpec = CommandSpec {
         number("Y", Dim::Length, "global Y").or("0"),
         number("Z", Dim::Length, "global Z, negative below the surface").or("0"),
     ],
-    options: &[WEIGHT, DISPLACEMENT, DRAG, ADDED_MASS, FORCE],
+    options: &[WEIGHT, DISPLACEMENT, DRAG, ADDED_MASS, NO_WAVE_INERTIA, FORCE],
     detail: "A point with three degrees of freedom that &EQUI solves with the bodies: the knot of a bridle or a Y-line, a buoy between two \
              lines, a clump weight where three meet. It makes the point *NAME, which connectors name as any other; lines between it and a \
              body or another junction are H_CAT, its lines to anchors B_CAT. X Y Z is where the solution begins; &INSTATE moves it by \
@@ -95,7 +96,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if area > 0.0 || added > 0.0 {
         let volume = displacement / (job.model.defaults.water_density * job.model.defaults.gravity);
         let (drag_areas, added) = ([area; 3], [added; 3]);
-        let lump = Lump { volume, drag_areas, added, ..Lump::default() };
+        let ignores_water_acceleration = args.has(&NO_WAVE_INERTIA);
+        let lump = Lump { volume, drag_areas, added, ignores_water_acceleration, ..Lump::default() };
         job.model.loads.push(PartLoad::at_origin(name, LoadKind::Lump(lump), args.span));
     }
     if let Some(given) = args.option(&FORCE) {

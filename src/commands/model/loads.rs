@@ -427,12 +427,19 @@ const LUMP_ADDED_MASS: OptionSpec = OptionSpec::ours(
 .default("none");
 const LUMP_CONSTANT: OptionSpec =
     OptionSpec::ours("-CONSTANT", &[], "all of it acts wherever the point is").default("the share that is under water");
+/// `-NO_WAVE_INERTIA`, of JUNCTION too.
+pub(super) const NO_WAVE_INERTIA: OptionSpec = OptionSpec::ours(
+    "-NO_WAVE_INERTIA",
+    &[],
+    "waves act by drag alone: the acceleration of the water does nothing, as at points and bodies of MoorDyn",
+)
+.default("it acts");
 
 static LUMP_SPEC: CommandSpec = CommandSpec {
     owner: Owner::Ours,
     menus: MENUS,
     data: &[POINT, number("V", Dim::Volume, "volume; its mass is that of #WEIGHT").not_negative()],
-    options: &[LUMP_DRAG, LUMP_ROTARY_DRAG, LUMP_ADDED_MASS, LUMP_CONSTANT, CATEGORY],
+    options: &[LUMP_DRAG, LUMP_ROTARY_DRAG, LUMP_ADDED_MASS, LUMP_CONSTANT, NO_WAVE_INERTIA, CATEGORY],
     detail: "A small body, as a buoy or a clump, by Morison's formula at one point: buoyancy rho g V, drag 1/2 rho A |w| w along each axis of the part with w the \
              water past the point, 1/2 rho R |p| p against the rate p of turning about each axis, added mass rho C V, and in waves rho V (1 + C) times the \
              acceleration of the water. What acts is the share of a sphere of the volume that is under the mean level; with -CONSTANT always all of it, as of \
@@ -550,7 +557,15 @@ fn lump(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .option(&LUMP_ROTARY_DRAG)
         .map_or([0.0; 3], |given| given.numbers_or_zero(const { LUMP_ROTARY_DRAG.numbers(["RX", "RY", "RZ"]) }));
     let is_constant = args.has(&LUMP_CONSTANT);
-    let lump = Lump { volume, is_buoyant: true, is_constant, drag_areas, rotary_drag, added };
+    let lump = Lump {
+        volume,
+        is_buoyant: true,
+        is_constant,
+        drag_areas,
+        rotary_drag,
+        added,
+        ignores_water_acceleration: args.has(&NO_WAVE_INERTIA),
+    };
     keep(job, args, position(job, args)?, LoadKind::Lump(lump))
 }
 

@@ -218,7 +218,8 @@ impl Drive<'_> {
     }
 }
 
-/// Compares what a driven deck of tests/data/moordyn/driven has with MoorDyn 2.7.2 and 40 segments a line: to 1 % of the range.
+/// Compares what a driven deck of tests/data/moordyn/driven has with MoorDyn 2.7.2 and 40 segments a line, or those of the deck where friction
+/// hangs on them: to 1 % of the range.
 fn compare_with_moordyn(drive: &Drive<'_>, columns: &[(&str, (&str, &str))]) {
     // by moordyn_driven.py; with 20 segments these move by 0.6 % of the range or less
     let mut reader = csv::Reader::from_path("tests/data/moordyn/driven/moordyn_driven.csv").unwrap();
@@ -226,7 +227,7 @@ fn compare_with_moordyn(drive: &Drive<'_>, columns: &[(&str, (&str, &str))]) {
     let found = drive.extremes(&columns.iter().map(|(_, column)| *column).collect::<Vec<_>>());
     for ((quantity, _), (largest, least)) in columns.iter().zip(found) {
         let is_wanted = |row: &&csv::StringRecord| {
-            format!("driven/{}", &row[0]) == drive.deck && &row[1] == "40" && &row[2] == *quantity
+            format!("driven/{}", &row[0]) == drive.deck && &row[1] != "20" && &row[2] == *quantity
         };
         let row = rows.iter().find(is_wanted).unwrap_or_else(|| panic!("{} {quantity}", drive.deck));
         let [want_largest, want_least] = [3, 4].map(|at| row[at].parse::<f64>().unwrap());
@@ -278,6 +279,58 @@ fn body_read_like_moordyn_has_its_buoyancy_and_drag_areas() {
         from: 90.0,
     };
     compare_with_moordyn(&drive, &BODY);
+}
+
+#[test]
+fn buoys_in_waves_read_like_moordyn_feel_no_acceleration_of_the_water() {
+    let drive = Drive {
+        deck: "driven/buoys_like",
+        options: "-LIKE MOORDYN",
+        sinusoid: "X 0 10",
+        window: "160 0.1",
+        from: 120.0,
+    };
+    let columns = [
+        ("force", ("CONFORCE L5", "Mag.")),
+        ("x", ("TRAJECTORY P8", "X")),
+        ("z", ("TRAJECTORY P8", "Z")),
+        ("body x", ("TRAJECTORY BODY1", "X")),
+        ("body z", ("TRAJECTORY BODY1", "Z")),
+    ];
+    compare_with_moordyn(&drive, &columns);
+}
+
+#[test]
+fn chain_dragged_over_a_slope_read_like_moordyn_has_its_friction_push_and_tension() {
+    let drive = Drive {
+        deck: "driven/slope_like",
+        options: "-LIKE MOORDYN",
+        sinusoid: "X 1 10 -SINUSOID Z 0.5 10",
+        window: "120 0.1",
+        from: 90.0,
+    };
+    let columns = [("force", ("CONFORCE L1", "Mag.")), ("FairTen", ("ROD L1 NODE 1 -DISPOSE", "Tension"))];
+    compare_with_moordyn(&drive, &columns);
+}
+
+#[test]
+fn tension_at_the_end_of_a_hung_chain_is_that_of_its_last_segment_like_moordyn() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = "- LINE\n--- LINE TYPES ---\na\nb\nchain 0.08 50 3e8 -0.8 0 1.3 1.0 0.4 0.5\n--- POINTS ---\na\nb\n1 Free 0 0 -108 2000 0 5 0\n\
+                2 Coupled 0 0 -8 0 0 0 0\n--- LINES ---\na\nb\n1 chain 1 2 100 4 -\n--- OPTIONS ---\n140 WtrDpth\n9.80665 g\n---\n";
+    std::fs::write(folder.path().join("deck.txt"), deck).unwrap();
+    // FairTen of MoorDyn 2.7.2 after 120 s at rest: 58096.37 N, and 63593.96 N on the point; 2000 kg and the chain's weight in water along 87.5
+    // and 100 m
+    for (options, tension) in [("", 63594), ("-LIKE MOORDYN", 58096)] {
+        let (text, errors) = common::print_records(&format!(
+            "INMODEL -MOORDYN \"{}/deck.txt\" {options}\n&DIMEN -DIMEN METERS NEWTONS\n&EQUI\n&STATUS FORCE\n",
+            folder.path().display()
+        ));
+        assert_eq!(errors, 0, "{text}");
+        assert!(text.contains(&format!("tension {tension} N at its first end")), "{text}");
+        let force = text.lines().find(|line| line.contains("VESSEL  TOTAL")).unwrap();
+        assert!(force.split_whitespace().any(|word| word == "-63594"), "{force}");
+    }
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What a dynamic line is made of, as its class says.
 
 use std::f64::consts::FRAC_PI_4;
-use windlass_line_dynamics::{RodSegment, TensionLaw};
+use windlass_line_dynamics::{RodSegment, SeabedPush, TensionLaw};
 use windlass_model::{Ambient, Contents};
 
 /// What stands where a part ends and the next begins.
@@ -50,6 +50,10 @@ pub struct Seabed {
     pub along: f64,
     /// Friction across the line; as along where not given.
     pub across: Option<f64>,
+    /// Friction by speed alone: of an area, at a coefficient of one (N s/m3).
+    pub friction_damping: Option<f64>,
+    /// Where the bottom pushes.
+    pub push: SeabedPush,
     /// Slope of the bottom, positive where the depth increases from the first end toward the second.
     pub slope: Option<f64>,
     /// Depth of the bottom at the second end below z = 0 (m), where the class says it.
@@ -88,6 +92,8 @@ pub struct LineDescription {
     pub holds: [Option<EndFixity>; 2],
     /// Whether it is slammed where it enters the water.
     pub slam: bool,
+    /// Whether what is reported as the tension at its ends is that in the middle of its end elements.
+    pub has_middle_end_tension: bool,
     /// What is always reported of it.
     pub notes: Vec<String>,
 }

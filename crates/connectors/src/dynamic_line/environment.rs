@@ -103,6 +103,8 @@ pub(super) fn ground(seabed: &Seabed, segments: &[RodSegment], around: &Surround
         friction_across: seabed.across.unwrap_or(seabed.along),
         friction_speed: DEFAULT_FRICTION_SPEED,
         friction_travel: DEFAULT_FRICTION_TRAVEL_M,
+        friction_damping: seabed.friction_damping,
+        push: seabed.push,
     }
 }
 

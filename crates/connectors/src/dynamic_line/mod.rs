@@ -22,6 +22,6 @@ mod static_start;
 pub use describe::{BreakingStrength, EndFixity, JointMass, LineDescription, LinePart, Seabed};
 pub use element::DynamicLine;
 pub use sections::{
-    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, LINE_OPTIONS, ROPE, SEABED, SLAM, STRETCH, describe_chain,
-    description, parse_seabed, read_end_fixities,
+    AX_DAMPING, CA, CD, CLAMP, CLUMP_DRAG, EA, Flexure, LINE_OPTIONS, MID_TENSION, ROPE, SEABED, SLAM, STRETCH,
+    VERTICAL_PUSH, describe_chain, description, parse_seabed, read_end_fixities,
 };

@@ -33,11 +33,12 @@ impl NodalConnector for DynamicLine {
             .with_environment(at, still, paid, &mut Vec::new(), |environment| rod.results(&state, environment, &ends));
         // the class speaks of its records, of which a rod may have several segments, and a pipe all of the first
         let record = |segment| if self.base.laid.is_some() { 0 } else { self.base.bands.part_of(segment) };
-        for node in out {
+        for node in out.iter_mut() {
             node.segment = record(node.segment);
             let before = node.before.map(|b| LineSide { segment: record(b.segment), ..b });
             node.before = before.filter(|b| b.segment != node.segment);
         }
+        self.take_middle_end_tension(out);
         Ok(())
     }
 
@@ -65,6 +66,7 @@ impl NodalConnector for DynamicLine {
         self.with_environment(at, at.step.is_none(), kept.paid, flows, |environment| {
             rod.row(state, environment, &ends, sampled, out);
         });
+        self.take_middle_end_tension(out);
         Ok(())
     }
 }
@@ -100,7 +102,7 @@ impl DynamicConnector for DynamicLine {
 
     /// That it rests without the friction that the bottom has.
     fn static_caution(&self, at: &Situation) -> Option<&'static str> {
-        if !self.base.ground.rough() {
+        if !self.base.ground.holds_at_rest() {
             return None;
         }
         let mut cache = RodCache::new(&self.base);
@@ -112,6 +114,23 @@ impl DynamicConnector for DynamicLine {
 }
 
 impl DynamicLine {
+    /// Gives the ends the tension in the middle of their elements, of a line that reports it so.
+    fn take_middle_end_tension(&self, nodes: &mut [LineNode]) {
+        if !self.base.description.has_middle_end_tension {
+            return;
+        }
+        let of = |pair: Option<&[LineNode; 2]>| pair.map_or(0.0, |[a, b]| 0.5 * (b.effective - a.effective));
+        let changes = [of(nodes.first_chunk()), -of(nodes.last_chunk())];
+        let mut add = |node: Option<&mut LineNode>, change: f64| {
+            if let Some(node) = node {
+                node.effective += change;
+                node.wall += change;
+            }
+        };
+        add(nodes.first_mut(), changes[0]);
+        add(nodes.last_mut(), changes[1]);
+    }
+
     /// What is said of ends that are held where elements are too long for the bending there, which fades over sqrt(EI/T).
     fn coarse_mesh_notes(&self, nodes: &[LineNode]) -> Vec<Note> {
         let parts = &self.base.description.parts;

@@ -11,7 +11,7 @@ use windlass_base::spec::ValueKey;
 use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given};
 use windlass_language::spec::{Kind, OptionSpec, ValueSpec};
-use windlass_line_dynamics::{RodSegment, TensionLaw, TubeSection, ViscoelasticRope};
+use windlass_line_dynamics::{RodSegment, SeabedPush, TensionLaw, TubeSection, ViscoelasticRope};
 use windlass_model::{ClassError, ClassRecord, RopeStiffness, Surroundings};
 
 /// Drag, inline drag of the skin and added mass where nothing is given: those of AQWA's cable dynamics [AQWA-CONN 5.8.3.1].
@@ -103,6 +103,13 @@ pub const CLUMP_DRAG: OptionSpec = OptionSpec::ours(
 );
 /// `-SLAM`.
 pub const SLAM: OptionSpec = OptionSpec::ours("-SLAM", &[], "the line is slammed where it enters the water");
+/// `-MID_TENSION`.
+pub const MID_TENSION: OptionSpec = OptionSpec::ours(
+    "-MID_TENSION",
+    &[],
+    "the tension reported at its ends is that in the middle of its end elements, as FairTen of MoorDyn; forces stay",
+)
+.default("the tension at the ends");
 /// `-AX_DAMPING`.
 pub const AX_DAMPING: OptionSpec = OptionSpec::ours(
     "-AX_DAMPING",
@@ -142,10 +149,18 @@ pub const SEABED: OptionSpec = OptionSpec::ours(
         number("K", PER_DEPTH, "normal stiffness per area of the line's shadow").positive(),
         number("C", PER_SPEED, "normal damping per area").or("half of critical").not_negative(),
         number("MUX", Dim::None, "friction across the line").or("that of -FRICTION").not_negative(),
+        number("CF", PER_SPEED, "friction by speed alone, as in MoorDyn: per area and speed times the coefficient, up to Coulomb's; none at rest")
+            .or("Coulomb's, also at rest")
+            .not_negative(),
     ],
     "how the bottom answers the line",
 )
 .default("the heaviest segment sinks in by 2% of its diameter, under a tenth of its weight in air at least");
+
+/// `-VERTICAL_PUSH`.
+pub const VERTICAL_PUSH: OptionSpec =
+    OptionSpec::ours("-VERTICAL_PUSH", &[], "the bottom pushes straight up on slopes too, as in MoorDyn")
+        .default("along its normal");
 
 /// What a record says beyond its section.
 #[derive(Clone, Debug, PartialEq)]
@@ -333,6 +348,8 @@ pub fn parse_seabed(options: &PerLineOptions) -> Seabed {
         damping: own.and_then(|given| given.number(const { SEABED.number("C") })),
         along: options.number(&o::FRICTION).unwrap_or(0.0),
         across: own.and_then(|given| given.number(const { SEABED.number("MUX") })),
+        friction_damping: own.and_then(|given| given.number(const { SEABED.number("CF") })),
+        push: if options.option(&VERTICAL_PUSH).is_some() { SeabedPush::Vertical } else { SeabedPush::Normal },
         // -SLOPE is positive where the depth increases toward the anchor
         slope: options.number(&o::SLOPE),
         depth: options.number(&o::DEPANCHOR),
@@ -411,5 +428,12 @@ pub fn description(
     seabed: Seabed,
     holds: [Option<EndFixity>; 2],
 ) -> LineDescription {
-    LineDescription { kind, parts, seabed, holds, slam: false, notes: Vec::new() }
+    let mut notes = Vec::new();
+    if seabed.friction_damping.is_some() && seabed.along > 0.0 {
+        notes.push("friction of the seabed rises with speed and holds nothing at rest: CF of -SEABED".to_string());
+    }
+    if seabed.push == SeabedPush::Vertical {
+        notes.push("the bottom pushes straight up: -VERTICAL_PUSH".to_string());
+    }
+    LineDescription { kind, parts, seabed, holds, slam: false, has_middle_end_tension: false, notes }
 }

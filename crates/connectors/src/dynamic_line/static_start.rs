@@ -94,7 +94,7 @@ impl DynamicLine {
         environment: &LineEnvironment,
         (around, ends): (&Surroundings, [RodEnd; 2]),
     ) -> Option<RodState> {
-        let (other, ground) = environment.bottom.filter(|(_, ground)| ground.rough())?;
+        let (other, ground) = environment.bottom.filter(|(_, ground)| ground.holds_at_rest())?;
         self.base
             .ambient
             .as_ref()

@@ -8,6 +8,8 @@ use windlass_base::span::Span;
 
 /// The pin that holds no twist, among those by their axes.
 const BALL: usize = 3;
+/// Waves act by drag alone on points and bodies of MoorDyn.
+const NO_WAVE_INERTIA: &str = " -NO_WAVE_INERTIA";
 /// A prescribed motion that is none: what is coupled stands still until the user moves it.
 const STILL: &str = "-SINUSOID X 0 1";
 
@@ -38,7 +40,7 @@ struct InWater {
 
 impl InWater {
     /// The record of it at a point; none where the water does nothing. A body of MoorDyn keeps its whole volume above the surface too.
-    fn record(&self, point: &str) -> Option<String> {
+    fn record(&self, point: &str, like: Like) -> Option<String> {
         let [along, about] = &self.areas;
         let acts = self.volume > 0.0 || along.iter().chain(about).any(|area| *area > 0.0);
         acts.then(|| {
@@ -48,7 +50,11 @@ impl InWater {
                     text.push_str(&format!(" {option} {}", numbers(values)));
                 }
             }
-            text + " -CONSTANT"
+            text.push_str(" -CONSTANT");
+            if like == Like::MoorDyn && self.volume > 0.0 {
+                text.push_str(NO_WAVE_INERTIA);
+            }
+            text
         })
     }
 }
@@ -231,7 +237,7 @@ impl Writer<'_> {
         }
         let (area, added) = (point.drag_area.value, point.added_mass.value);
         let water = InWater { volume: point.volume.value, areas: [[area; 3], [0.0; 3]], added: [added; 3] };
-        if let Some(record) = water.record(&name) {
+        if let Some(record) = water.record(&name, self.like) {
             self.record(&row, span, &record);
         }
         self.force(&row, span, &name, point.force);
@@ -257,6 +263,9 @@ impl Writer<'_> {
             if value > 0.0 {
                 text.push_str(&format!(" {option} {}", number(value)));
             }
+        }
+        if self.like == Like::MoorDyn && lift > 0.0 {
+            text.push_str(NO_WAVE_INERTIA);
         }
         if point.force != [0.0; 3] {
             text.push_str(&format!(" -FORCE {}", numbers(&point.force.map(|force| rounded(force / 1000.0)))));
@@ -351,7 +360,7 @@ impl Writer<'_> {
         }
         let areas = self.drag_areas_of_body(body);
         let water = InWater { volume: body.volume.value, areas, added: three(&body.added_mass.value) };
-        if let Some(record) = water.record(&format!("*B{id}")) {
+        if let Some(record) = water.record(&format!("*B{id}"), self.like) {
             self.record(&row, span, &record);
         }
         if body.volume.value > 0.0 && centre != [0.0; 3] {

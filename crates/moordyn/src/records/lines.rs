@@ -1,6 +1,6 @@
 //! Lines of a deck as classes and connectors.
 
-use super::{Held, Holder, LineModel, ON_SEABED_M, Writer, number, numbers, rounded};
+use super::{Held, Holder, Like, LineModel, ON_SEABED_M, Writer, number, numbers, rounded};
 use crate::files;
 use crate::tables::{AxialStiffness, Line, LineEnd, LineType};
 use std::f64::consts::PI;
@@ -8,6 +8,8 @@ use windlass_base::diagnostic::Diagnostic;
 
 /// MoorDyn's stiffness (Pa/m) and damping (Pa s/m) of the seabed where the deck gives none.
 const DEFAULT_SEABED: [f64; 2] = [3e6, 3e5];
+/// MoorDyn's FricDamp (N s/m of a node at a coefficient of 1) where the deck gives none.
+const DEFAULT_FRICTION_DAMPING: f64 = 200.0;
 /// Longest part of a type's name that a class keeps: names have 64 characters, and a number may follow.
 const CLASS_NAME_CHARACTERS: usize = 40;
 
@@ -74,8 +76,8 @@ impl Writer<'_> {
         let weight = number(self.weight(kind.mass.value));
         let length = number(line.length.value);
         let common = format!("-LEN {length} -WTPLEN {weight}");
-        let friction = kind.friction.as_ref().or(options.friction.as_ref()).map_or(0.0, |given| given.value);
-        let friction = if friction > 0.0 { format!(" -FRICTION {}", number(friction)) } else { String::new() };
+        let coefficient = kind.friction.as_ref().or(options.friction.as_ref()).map_or(0.0, |given| given.value);
+        let friction = if coefficient > 0.0 { format!(" -FRICTION {}", number(coefficient)) } else { String::new() };
         if self.model == LineModel::Static {
             let modulus = number(rounded(ea / (PI * diameter * diameter / 4.0) / 1e6));
             if kind.bending.value > 0.0 {
@@ -107,6 +109,19 @@ impl Writer<'_> {
             options.seabed_stiffness.as_ref().map_or(DEFAULT_SEABED[0], |given| given.value),
             options.seabed_damping.as_ref().map_or(DEFAULT_SEABED[1], |given| given.value),
         ];
+        // MoorDyn's friction is of a node, whatever lies with it; across a line it is that along it
+        let mut bottom = numbers(&seabed.map(|value| rounded(value / 1000.0)));
+        if self.like == Like::MoorDyn {
+            if !friction.is_empty() {
+                let damping = options.friction_damping.as_ref().map_or(DEFAULT_FRICTION_DAMPING, |given| given.value);
+                let area = diameter * segment;
+                bottom.push_str(&format!(" {} {}", number(coefficient), number(rounded(damping / area / 1000.0))));
+            }
+            if options.seafloor_file.is_some() {
+                bottom.push_str(" -VERTICAL_PUSH");
+            }
+            bottom.push_str(" -MID_TENSION");
+        }
         Some(format!(
             "ROD {size} {} {common} -REFINE {} {} -EI {} -AX_DAMPING {} -CD {} -CA {} -SEABED {}{friction}",
             number(rounded(diameter * 500.0)),
@@ -116,7 +131,7 @@ impl Writer<'_> {
             number(rounded(damping / 1000.0)),
             numbers(&[kind.cd_normal.value, kind.cd_axial.value]),
             numbers(&[kind.ca_normal.value, kind.ca_axial.value]),
-            numbers(&seabed.map(|value| rounded(value / 1000.0))),
+            bottom,
         ))
     }
 }

@@ -25,6 +25,10 @@ const DEFAULT_GRAVITY: f64 = 9.80665;
 const DEFAULT_DENSITY: f64 = 1025.0;
 /// The body that what is coupled is on.
 pub const VESSEL: &str = "VESSEL";
+/// What is taken of MoorDyn where its answers are asked for, and what is not.
+const TAKEN: &str = "buoyancy of bodies at their centre of gravity; the first one of three or six drag areas of a body lost; friction by FricDamp; the push of a \
+                     seafloor straight up; no acceleration of the water of waves at points and bodies; tensions at ends in the middle of the end segments";
+const STILL_RIGHT: &str = "pins that accelerate; a seafloor bicubic between its points; a bottom that never pulls; ends of rods over the bottom";
 /// How far an anchor may stand from the seabed (m) and still be on it: places of decks are rounded to millimetres.
 const ON_SEABED_M: f64 = 1e-3;
 
@@ -42,7 +46,8 @@ choices! {
     pub enum Like {
         /// The right one.
         Right = "RIGHT",
-        /// MoorDyn's: buoyancy of bodies at their centre of gravity, and no first one of three or six drag areas.
+        /// MoorDyn's: buoyancy of bodies at their centre of gravity, no first one of three or six drag areas, friction by FricDamp, a seafloor
+        /// that pushes straight up, waves that act on points and bodies by drag alone, tensions at ends in the middle of the end segments.
         MoorDyn = "MOORDYN",
     }
 }
@@ -322,15 +327,47 @@ impl Writer<'_> {
         }
     }
 
+    /// What MoorDyn leaves out or does in another way in this deck, and whose answer is taken.
+    fn note_what_parts(&mut self, whole: Span) {
+        let deck = self.deck;
+        let has_volume = deck.points.iter().any(|point| point.volume.value > 0.0)
+            || deck.bodies.iter().any(|body| body.volume.value > 0.0);
+        let waves = deck.options.wave_kinematics.as_ref().filter(|given| given.value > 0);
+        if let Some(given) = waves.filter(|_| has_volume) {
+            let text = match self.like {
+                Like::Right => {
+                    "waves accelerate the water around points and bodies; MoorDyn leaves that out: so does -LIKE MOORDYN"
+                }
+                Like::MoorDyn => "waves act on points and bodies by drag alone, as in MoorDyn",
+            };
+            self.remark(given.span, text);
+        }
+        if self.model == LineModel::Dynamic && self.like == Like::Right && deck.map.is_none() {
+            let text = "tensions at ends of lines are those there; FairTen of MoorDyn is that in the middle of the last segment: so it is with -LIKE MOORDYN";
+            self.remark(deck.lines.first().map_or(whole, |line| line.id.span), text);
+        }
+    }
+
     fn notes(&mut self, whole: Span) {
         let options = &self.deck.options;
         if self.like == Like::MoorDyn {
-            let text = "-LIKE MOORDYN takes two of MoorDyn's answers: bodies have their buoyancy at the centre of gravity, and lose the first one of three or six drag areas";
-            self.remark(whole, format!("{text}. Right are still: friction, the push of the bottom, pins that accelerate, waves at bodies and points, forces at ends of lines"));
+            self.remark(
+                whole,
+                format!("-LIKE MOORDYN takes these answers of MoorDyn: {TAKEN}. Right are still: {STILL_RIGHT}"),
+            );
         }
+        self.note_what_parts(whole);
         let friction = options.friction.as_ref().filter(|given| given.value > 0.0);
         if let (Some(given), LineModel::Dynamic) = (friction, self.model) {
-            self.remark(given.span, "friction is Coulomb's: FricDamp and StatDynFricScale, by which MoorDyn builds it up with speed, are not used");
+            let text = match self.like {
+                Like::Right => {
+                    "friction is Coulomb's: FricDamp and StatDynFricScale, by which MoorDyn builds it up with speed, are not used; with -LIKE MOORDYN FricDamp is"
+                }
+                Like::MoorDyn => {
+                    "friction rises with speed by FricDamp up to Coulomb's and holds nothing at rest, as in MoorDyn; StatDynFricScale is not used"
+                }
+            };
+            self.remark(given.span, text);
         }
         if let (true, Some(line)) = (self.has_hanging_lines, self.deck.lines.first()) {
             let text = "lines that do not end on the seabed are H_CAT: they have their weight in water, and -DYNAMICS of &CONNECTOR would take it for their mass";

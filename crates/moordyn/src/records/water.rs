@@ -1,6 +1,6 @@
 //! Depth, currents, waves and seafloor of a deck.
 
-use super::{Writer, number, numbers, rounded};
+use super::{Like, Writer, number, numbers, rounded};
 use crate::Deck;
 use crate::files::{self, FileText, NeededFile};
 use crate::tables::AxialStiffness;
@@ -122,7 +122,14 @@ impl Writer<'_> {
             self.record("OPTIONS", span, &text);
         }
         self.record("OPTIONS", span, "END");
-        let text = "between the points of the seafloor the bottom is bicubic and pushes along its normal; MoorDyn's is bilinear and pushes straight up";
+        let text = match self.like {
+            Like::Right => {
+                "between the points of the seafloor the bottom is bicubic and pushes along its normal; MoorDyn's is bilinear and pushes straight up, as the bottom does with -LIKE MOORDYN"
+            }
+            Like::MoorDyn => {
+                "the bottom pushes straight up, as in MoorDyn; between the points of the seafloor it is bicubic, MoorDyn's is bilinear"
+            }
+        };
         self.remark(span, text);
         format!(" -BATHYMETRY {BOTTOM}")
     }

@@ -21,8 +21,29 @@ const TYPE_NAME_CHARACTERS: usize = 40;
 #[derive(Default)]
 struct Common {
     friction: Option<(String, f64)>,
+    friction_damping: Option<(String, f64)>,
     stiffness: Option<(String, f64)>,
     damping: Option<(String, f64)>,
+}
+
+/// One of them.
+#[derive(Clone, Copy)]
+enum Slot {
+    Friction,
+    FrictionDamping,
+    Stiffness,
+    Damping,
+}
+
+impl Common {
+    fn slot(&mut self, slot: Slot) -> &mut Option<(String, f64)> {
+        match slot {
+            Slot::Friction => &mut self.friction,
+            Slot::FrictionDamping => &mut self.friction_damping,
+            Slot::Stiffness => &mut self.stiffness,
+            Slot::Damping => &mut self.damping,
+        }
+    }
 }
 
 impl DeckWriter<'_> {
@@ -42,6 +63,7 @@ impl DeckWriter<'_> {
         options.density = Some(own(self.around.water_density));
         options.depth = Some(own(self.depth));
         options.friction = common.friction.map(|(_, value)| own(rounded(value)));
+        options.friction_damping = common.friction_damping.map(|(_, value)| own(rounded(value)));
         options.seabed_stiffness = common.stiffness.map(|(_, value)| own(rounded(value)));
         options.seabed_damping = common.damping.map(|(_, value)| own(rounded(value)));
         Ok(())
@@ -204,20 +226,29 @@ impl DeckWriter<'_> {
             );
             return Err(self.refuse_line(connector, &text, &["decks have one depth: &ENV -DEPTH".to_string()]));
         }
-        let given = [
-            (&mut common.friction, Some(seabed.friction), "friction of the seabed"),
-            (&mut common.stiffness, seabed.stiffness, "stiffness of the seabed"),
-            (&mut common.damping, seabed.damping, "damping of the seabed"),
+        let mut given = vec![
+            (Slot::Friction, Some(seabed.friction), "friction of the seabed"),
+            (Slot::Stiffness, seabed.stiffness, "stiffness of the seabed"),
+            (Slot::Damping, seabed.damping, "damping of the seabed"),
         ];
+        // MoorDyn's is of a node, whatever lies with it
+        for (segment, count) in properties.segments.iter().zip(segment_counts(connector, properties)) {
+            let node = segment.outside * segment.length / count.max(1) as f64;
+            given.push((
+                Slot::FrictionDamping,
+                seabed.friction_damping.map(|rate| rate * node),
+                "friction by speed of a node",
+            ));
+        }
         for (slot, value, what) in given {
             let Some(value) = value else { continue };
-            match slot {
+            match common.slot(slot) {
                 Some((name, other)) if (*other - value).abs() > 1e-9 * other.abs().max(value.abs()) => {
                     let text = format!("its {what} is not that of {name}: decks have one");
                     return Err(self.refuse_line(connector, &text, &[]));
                 }
                 Some(_) => {}
-                None => *slot = Some((connector.name.clone(), value)),
+                slot @ None => *slot = Some((connector.name.clone(), value)),
             }
         }
         Ok(())

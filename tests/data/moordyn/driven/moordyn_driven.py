@@ -32,9 +32,21 @@ def body(system, _):
     return {"x": x, "pitch": np.degrees(pitch)}
 
 
+def buoys(system, rows):
+    number = next(int(row[0]) for row in rows if row[1:2] == ["Free"] and len(row) == 9)
+    px, _, pz = moordyn.GetPointPos(moordyn.GetPoint(system, number))
+    bx, _, bz, _, pitch, _ = moordyn.GetBodyState(moordyn.GetBody(system, 1))[0]
+    return {"x": px, "z": pz, "body x": bx, "body z": bz, "body pitch": np.degrees(pitch)}
+
+
 def rod(system, _):
     x, _, z = moordyn.GetRodNodePos(moordyn.GetRod(system, 1), 0)
     return {"x": x, "z": z}
+
+
+def tension(system, _):
+    # in the middle of the last segment
+    return {"FairTen": moordyn.GetLineFairTen(moordyn.GetLine(system, 1))}
 
 
 def nothing(*_):
@@ -46,9 +58,11 @@ DECKS = {
     "clump": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), clump),
     "body": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
     "body_like": ((1.5, 1.0), 120, 90, (1e-3, 5e-4), body),
+    "slope_like": ((1.0, 0.5), 120, 90, (1e-3,), tension),
     "rod": ((1.0, 0.8), 120, 90, (5e-4, 5e-4), rod),
     "current": ((0.8, 0.5), 120, 90, (1e-3, 5e-4), nothing),
     "waves": ((0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
+    "buoys_like": ((0.0, 0.0), 160, 120, (1e-3, 5e-4), buoys),
     "elevation": ((0.0, 0.0), 160, 120, (1e-3, 5e-4), nothing),
 }
 
@@ -65,6 +79,8 @@ def run(name, segments, step):
     with tempfile.TemporaryDirectory() as folder:
         for path in HERE.glob("*.txt"):
             shutil.copy(path, folder)
+        # a seafloor file is looked for where the program runs
+        os.chdir(folder)
         path = pathlib.Path(folder) / "deck.txt"
         path.write_text(text)
         system = moordyn.Create(str(path))
@@ -89,9 +105,10 @@ def run(name, segments, step):
 chosen = sys.argv[1:] or list(DECKS)
 rows = ["deck,segments,quantity,largest,least"]
 for name in chosen:
-    for segments, step in zip((20, 40), DECKS[name][3]):
+    # friction is of a node: a line with it has the segments of its deck
+    for segments, step in zip((20, 40) if len(DECKS[name][3]) == 2 else (66,), DECKS[name][3]):
         rows += [f"{name},{segments},{quantity},{largest:.6g},{least:.6g}" for quantity, (largest, least) in run(name, segments, step).items()]
 if sys.argv[1:]:
-    print("\n".join(rows), file=SAID)
+    print("\n".join(rows), file=SAID, flush=True)
 else:
     (HERE / "moordyn_driven.csv").write_text("\n".join(rows) + "\n")
