@@ -4,6 +4,7 @@ use crate::commands::find_stored;
 use crate::commands::verdict::{OverBreak, Verdict};
 use crate::format_scripts::{self, FormatArgs, FormatEnd};
 use crate::lsp;
+use crate::man_page::man_page;
 use crate::manual;
 use crate::repl;
 use crate::report::files::JobFolder;
@@ -238,9 +239,8 @@ const INTERRUPTED: u8 = 130;
 /// Runs the program; returns the exit code, as `--help` lists them.
 pub fn run(cli: Cli) -> u8 {
     if cli.man {
-        let mut page = Vec::new();
-        return match clap_mangen::Man::new(Cli::command()).render(&mut page) {
-            Ok(()) => print_bytes(&page),
+        return match man_page(Cli::command()) {
+            Ok(page) => print_bytes(&page),
             Err(error) => {
                 complain(&format!("the man page cannot be made: {error}"));
                 1

@@ -16,6 +16,7 @@ pub mod commands;
 pub mod format_scripts;
 pub mod hosted;
 pub mod lsp;
+mod man_page;
 pub mod manual;
 pub mod repl;
 pub mod report;

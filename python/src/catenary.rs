@@ -12,6 +12,8 @@ use windlass_catenary::{
 
 /// Lines that a core takes at once: the share of one is then far above what handing it out costs.
 const LINES_A_TASK: usize = 256;
+/// Most lines that one core takes without looking for Ctrl-C: some ten milliseconds.
+const LINES_AT_ONCE: usize = 1 << 14;
 
 /// A column of input: one value for all lines, or one a line.
 struct Input<'a> {
@@ -75,12 +77,21 @@ fn failures<T, E: std::fmt::Display>(
     raise: bool,
 ) -> PyResult<Vec<(usize, String)>> {
     let failed = solved.iter().enumerate().filter_map(|(at, answer)| Some((at, answer.as_ref().err()?)));
+    named(py, solved.len(), failed, raise)
+}
+
+/// Failed ones of so many lines, as [`failures`] has them.
+fn named<'a, E: std::fmt::Display + 'a>(
+    py: Python<'_>,
+    count: usize,
+    mut failed: impl Iterator<Item = (usize, &'a E)>,
+    raise: bool,
+) -> PyResult<Vec<(usize, String)>> {
     if raise {
-        let mut failed = failed;
         let Some((at, error)) = failed.next() else { return Ok(Vec::new()) };
         let more = failed.count();
         let more = if more > 0 { format!(", and {more} lines more have no answer") } else { String::new() };
-        let text = if solved.len() == 1 { error.to_string() } else { format!("line {at}: {error}{more}") };
+        let text = if count == 1 { error.to_string() } else { format!("line {at}: {error}{more}") };
         return Err(engine_error(py, text));
     }
     Ok(failed.map(|(at, error)| (at, error.to_string())).collect())
@@ -149,8 +160,8 @@ pub fn solve<'py>(
     })
 }
 
-/// Columns of what is found of each of so many lines. Rows hold no more than is asked for: the memory that all of them take is gone through
-/// once more for each column, which costs more than anything else here beside the lines themselves.
+/// Columns of what is found of each of so many lines. On one core a batch that takes some milliseconds goes straight into its columns, on the
+/// thread of its caller: rows of all lines and a thread of its own would take it a tenth longer. Rows hold no more than is asked for.
 fn solve_rows<'py, const N: usize>(
     py: Python<'py>,
     count: usize,
@@ -158,9 +169,28 @@ fn solve_rows<'py, const N: usize>(
     names: [&str; N],
     row: impl Fn(usize) -> Result<[f64; N], LineError> + Sync + Send,
 ) -> PyResult<Solved<'py>> {
+    let columns = Columns::new(py);
+    if threads == 1 && count <= LINES_AT_ONCE {
+        let (made, failed) = detached(py, || {
+            let mut made: [Vec<f64>; N] = std::array::from_fn(|_| Vec::with_capacity(count));
+            let mut failed = Vec::new();
+            for at in 0..count {
+                let found = row(at).unwrap_or_else(|error| {
+                    failed.push((at, error));
+                    [f64::NAN; N]
+                });
+                made.iter_mut().zip(found).for_each(|(column, value)| column.push(value));
+            }
+            (made, failed)
+        })?;
+        let failed = named(py, count, failed.iter().map(|(at, error)| (*at, error)), raise)?;
+        for (name, column) in names.into_iter().zip(made) {
+            columns.add(name, column)?;
+        }
+        return Ok((columns.made, failed));
+    }
     let solved = make_each(py, count, (threads, LINES_A_TASK), |at| row(at).map_err(Box::new))?;
     let failed = failures(py, &solved, raise)?;
-    let columns = Columns::new(py);
     for (index, name) in names.into_iter().enumerate() {
         columns.add(name, column(&solved, |row| row[index]))?;
     }

@@ -65,7 +65,8 @@ fn compare(deck: &str, model: &Model, rows: &[(String, String, [f64; 2])]) {
 #[test]
 fn friction_by_speed_of_a_deck_is_written_as_its_fricdamp() {
     // 1e4 N s/m of a node: CF of -SEABED is that over the shadow of a segment
-    let records = format!("INMODEL -MOORDYN \"{FOLDER}/driven/slope_like.txt\" -LIKE MOORDYN\nSTORE -MOORDYN deck.txt\n");
+    let records =
+        format!("INMODEL -MOORDYN \"{FOLDER}/driven/slope_like.txt\" -LIKE MOORDYN\nSTORE -MOORDYN deck.txt\n");
     let (files, said) = written(&records);
     let deck = file(&files, "deck.txt");
     for row in ["10000  FricDamp", "0.6  FrictionCoefficient", "200000  kBot"] {

@@ -262,6 +262,13 @@ fn man_page_and_completions_name_every_option() {
         assert!(page.contains(&format!("\\-\\-{}", option.replace('-', "\\-"))), "{option}: {page}");
         assert!(script.contains(&format!("--{option}")), "{option}: {script}");
     }
+    // commands have no pages of their own: their options and exit codes are here
+    for part in
+        [".SH WINDLASS\\ FMT", "\\-\\-check", ".SH WINDLASS\\ STUDY", "with \\-\\-check, a script would be changed"]
+    {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    assert!(!page.contains("windlass\\-fmt(1)") && page.matches(".TH ").count() == 1, "{page}");
     let (code, _, err) = run(&["--completions", "dish"]);
     assert_eq!(code, Some(2));
     assert!(err.contains("invalid value 'dish'") && err.contains("fish"), "{err}");

@@ -121,7 +121,7 @@ impl DynamicLine {
         }
         let of = |pair: Option<&[LineNode; 2]>| pair.map_or(0.0, |[a, b]| 0.5 * (b.effective - a.effective));
         let changes = [of(nodes.first_chunk()), -of(nodes.last_chunk())];
-        let mut add = |node: Option<&mut LineNode>, change: f64| {
+        let add = |node: Option<&mut LineNode>, change: f64| {
             if let Some(node) = node {
                 node.effective += change;
                 node.wall += change;
