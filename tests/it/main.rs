@@ -135,6 +135,7 @@ mod time {
     mod time_runs;
     mod transient;
     mod typed_database;
+    mod wave_drift_damping;
     mod wave_mean;
 }
 

@@ -2,7 +2,7 @@
 
 use super::area::AreaLoad;
 use super::coefficients::CoefficientLoad;
-use super::database::slow_drift::SlowDrift;
+use super::database::slow_drift::{DriftCoefficients, SlowDrift};
 use super::drag::{LinearDrag, at_origin, rotate_matrix};
 use super::drift::{self, DriftLoad, DriftRow};
 use super::growth::Growth;
@@ -392,7 +392,8 @@ fn drift(
         if let Some(sea) = sea {
             if let Some(sea) = sea {
                 let made = drift::table(sea, &table, symmetric, (yaw, turn)).map_err(here)?;
-                sum.loads.push(Box::new(SlowDrift::newman(&made, frame.point(load), sea).map_err(here)?));
+                let made = DriftCoefficients { table: &made, reference: frame.point(load), by_velocity: None };
+                sum.loads.push(Box::new(SlowDrift::newman(made, sea).map_err(here)?));
             }
             continue;
         }

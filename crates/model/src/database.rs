@@ -146,6 +146,8 @@ pub struct AttachedDatabase {
     pub memory: Option<f64>,
     /// How waves make slow drift.
     pub drift: DriftMethod,
+    /// Factor of its wave drift damping, and of what a current changes of its drift; none leaves that to the pieces of the body.
+    pub drift_damping: Option<f64>,
     /// Whether its hydrostatics are those of the body.
     pub hydrostatics: bool,
     /// Where it was given.

@@ -78,6 +78,8 @@ pub struct Piece {
     pub own_panels: bool,
     /// Factor of its eddy damping of roll; zero of none.
     pub eddy_damping: f64,
+    /// Factor of the wave drift damping of its body; none where it gives none.
+    pub drift_damping: Option<f64>,
     /// Options that do not act, as given.
     pub kept: Vec<Given>,
     /// Those of them whose effect no solver computes.

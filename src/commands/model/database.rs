@@ -147,6 +147,12 @@ const DRIFT: OptionSpec = OptionSpec::ours(
     "slow drift in time: by Newman's approximation, the mean only, by the QTF of the source, or none",
 )
 .default("QTF where the source has one, else NEWMAN");
+const DD_MULT: OptionSpec = OptionSpec::ours(
+    "-DD_MULT",
+    &[number("F", Dim::None, "factor").not_negative()],
+    "factor of wave drift damping, and of what a current changes of the mean drift; 0 leaves both out",
+)
+.default("that of the pieces of the body, else 1");
 const HYDROSTATICS: OptionSpec = OptionSpec::ours(
     "-HYDROSTATICS",
     YES_NO,
@@ -173,11 +179,15 @@ static SPEC: CommandSpec = CommandSpec {
         INFINITE,
         MEMORY,
         DRIFT,
+        DD_MULT,
         HYDROSTATICS,
     ],
     detail: "One of -WAMIT, -NEMOH, -CAPYTAINE, -AQWA and -RAO is given; a second DATABASE of a body replaces the first. The matrices make added \
              mass at infinite frequency and a memory of radiated waves, the excitation wave forces by the heading of the body, \
-             drift coefficients mean and slow drift; a table of motions makes no force. #DRIFT of the same body would count twice, and is refused but with -DRIFT NONE. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
+             drift coefficients mean and slow drift; a table of motions makes no force. In deep water \
+             the mean drift has wave drift damping in surge and sway by the formula of Aranha, which acts on velocities in TDOM, on slow drift in SRESPONSE and on the damping of &STATUS MODES; \
+             by the same formula the current of the environment changes the mean drift, in &EQUI too. TDOM prints both, and warns of waves for which the water is not deep: they \
+             have no part in it. #DRIFT of the same body would count twice, and is refused but with -DRIFT NONE. Headings of a source are the direction waves travel toward, from its x axis; gaps of more than 90 degrees \
              between them are refused when waves come from there. Density and gravity of WAMIT and RAO are those in force. \
              &STATUS DATABASE reports what was read.",
     example: "&FILE OPEN R ship.rao\n&FILE WRITE R WD WP XA XP ZA ZP RYA RYP\n&FILE WRITE R 0 8 .3 90 .5 20 1.1 -80\n\
@@ -211,7 +221,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             .help("leave out -HYDROSTATICS YES, and give the body a hull or #HYDROSTATIC"));
     }
     let memory = args.option_number(&MEMORY);
-    let made = AttachedDatabase { data: Arc::new(data), at, memory, drift, hydrostatics, span: args.span };
+    let drift_damping = args.option_number(&DD_MULT);
+    let made =
+        AttachedDatabase { data: Arc::new(data), at, memory, drift, drift_damping, hydrostatics, span: args.span };
     attach(job, &name, made, source)?;
     Ok(Effect::Done)
 }

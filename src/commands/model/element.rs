@@ -426,6 +426,7 @@ fn insert(
             waves: WaveAction::ByForm,
             own_panels: false,
             eddy_damping: 0.0,
+            drift_damping: None,
             kept: Vec::new(),
             unmodelled: Vec::new(),
             compartment: None,

@@ -640,6 +640,7 @@ fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
         at: [0.0; 3],
         memory: None,
         drift: DriftMethod::None,
+        drift_damping: None,
         hydrostatics: false,
         span: data.span,
     };

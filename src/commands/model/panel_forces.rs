@@ -522,6 +522,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
             at: [0.0; 3],
             memory: None,
             drift: DriftMethod::Newman,
+            drift_damping: None,
             hydrostatics: false,
             span,
         };

@@ -86,11 +86,16 @@ const CS_VELOCITY: OptionSpec = OptionSpec::new(
 .stops(SolveKind::Statics, "drag factors by velocity");
 const DD_MULT: OptionSpec = OptionSpec::new(
     "-DD_MULT",
-    &[number("R MULT", Dim::None, "ratios, each with the factor of drift damping there; or a factor alone")],
-    "factors of drift damping",
+    &[number(
+        "F",
+        Dim::None,
+        "factor of the whole; or ratios, each with a factor there, which stop the next solve of motions",
+    )
+    .not_negative()],
+    "factor of the wave drift damping of the body, and of what a current changes of its mean drift; 0 leaves both out",
 )
 .repeating(1)
-.stops(SolveKind::Motions, "wave drift damping by factors of the piece");
+.default("1: both act where the database of the body has mean drift");
 const AMASS: OptionSpec = OptionSpec::new(
     "-AMASS",
     &[
@@ -144,8 +149,8 @@ pub const PIECE_HELP: &str = "A piece belongs to the part described last and is 
      from its two sides (a hollow counts as if nothing sheltered it). |v| v is integrated over the height, by the profiles of \
      &ENV. CS is 1 1 1 where it is not given, so that wind in force is never without effect on a hull; -CS_WIND 0 0 0 turns it \
      off. A piece of permeability 0 or less takes none unless CS is given, an interior (less than 0) never. Tubes are \
-     prisms of 64 sides for it. -CS_VELOCITY stops the next solve, -OBSTACLE, -DD_MULT, -AMASS and -ROLL_DAMPING the next \
-     solve of motions, as their effect is not computed (&HELP &PARAMETER); -COLOR and -TEXTURE are for pictures. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
+     prisms of 64 sides for it. -DD_MULT multiplies the wave drift damping of the body (&HELP DATABASE). -CS_VELOCITY stops the next solve, -OBSTACLE, -AMASS and \
+     -ROLL_DAMPING the next solve of motions, as their effect is not computed (&HELP &PARAMETER); -COLOR and -TEXTURE are for pictures. Under way in waves a TUBE is a member by Morison's formula (&HELP TUBE). Any other piece feels no waves of first order, \
      and keeps the buoyancy of the mean level, unless a hydrodynamic database holds it (-DIFTYPE 3DDIF) or it has -DIFTYPE FK: then the \
      pressure that the waves have without it is integrated up to their surface, without diffraction and radiation. TDOM warns of pieces \
      that feel none. &STATUS PIECES lists CS, &STATUS LOADS the forces.";
@@ -293,6 +298,7 @@ pub fn current_part(model: &Model, span: Span) -> Outcome<&Part> {
 fn unmodelled_effect(given: &Given, piece: &str, units: UnitSystem) -> Option<UnmodelledEffect> {
     let (matters_to, effect) = match given.option.effect {
         _ if given.is(&DIFTYPE) => (SolveKind::Motions, "strip theory of waves"),
+        _ if given.is(&DD_MULT) => (SolveKind::Motions, "factors by ratio; a factor alone acts"),
         OptionEffect::Stops(kind, effect) => (kind, effect),
         OptionEffect::Acts | OptionEffect::Noted => return None,
     };
@@ -322,11 +328,14 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
             find(&model.curves, word, "curve", value.span)?;
         }
     }
-    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE, OWN_PANELS, TANAKA];
+    let acting = [PERMEABILITY, CS_WIND, CS_CURRENT, DIFTYPE, OWN_PANELS, DD_MULT, TANAKA];
+    let by_ratio = |given: &Given| given.is(&DD_MULT) && given.numbers().len() > 1;
     let chosen = args.option_choice(&DIFTYPE, const { DIFTYPE.choice("TYPE") });
     let is_strip = chosen == Some(DiffractionType::Strip);
-    let kept: Vec<_> =
-        own.filter(|given| !given.is_any(&acting) || (is_strip && given.is(&DIFTYPE))).cloned().collect();
+    let kept: Vec<_> = own
+        .filter(|given| !given.is_any(&acting) || (is_strip && given.is(&DIFTYPE)) || by_ratio(given))
+        .cloned()
+        .collect();
     let unmodelled: Vec<_> = kept.iter().filter_map(|given| unmodelled_effect(given, name, job.units)).collect();
     for effect in &unmodelled {
         job.remark(format!("not computed: {}; solves it matters to will stop", effect.sentence()), effect.span);
@@ -375,6 +384,7 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         waves,
         own_panels: args.has(&OWN_PANELS),
         eddy_damping: args.option_number(&TANAKA).unwrap_or(0.0),
+        drift_damping: args.option(&DD_MULT).filter(|given| !by_ratio(given)).and_then(|given| given.first_number()),
         kept,
         unmodelled,
         compartment,

@@ -19,6 +19,28 @@ pub(super) static REPORTS: &[ReportColumns] = &[
         ],
     },
     ReportColumns {
+        printed_by: "TDOM; &EQUI in a current",
+        titles: &["Wave Drift Damping"],
+        columns: &[
+            column(
+                "Damping: Surge",
+                &[derived(1, -1, 1)],
+                "force against a velocity of the body along its x axis, over the velocity",
+            ),
+            column(
+                "Damping: Sway",
+                &[derived(1, -1, 1)],
+                "force against a velocity of the body along its y axis, over the velocity",
+            ),
+            column(
+                "Damping: Surge-Sway",
+                &[derived(1, -1, 1)],
+                "force along the x axis of the body against a velocity along its y axis, over the velocity",
+            ),
+            column("Drift by Current: @", FORCE, "what the mean current adds to the mean drift, global"),
+        ],
+    },
+    ReportColumns {
         printed_by: "&STATUS MODES, &EQUI",
         titles: &["Natural Periods", "Mode Shapes"],
         columns: &[

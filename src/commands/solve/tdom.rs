@@ -25,6 +25,7 @@ use windlass_hydro::morison::pieces_without_wave_load;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
+use windlass_solve::drift_damping::{body_drift_dampings, drift_damping_table};
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
 use windlass_solve::slow_checks;
@@ -480,7 +481,10 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     warn_of_late_actions(job, &made, span);
     warn_of_lines(job, span);
     let mut going = RunProgress::new(job, &made, log);
-    for text in run_tables::warnings_of_step(&made).into_iter().chain(slow_checks::warnings_of_slow_drift(&made)) {
+    let dampings = body_drift_dampings(&made.model).map_err(|e| e.diagnostic(span, job.units))?;
+    let of_damping = dampings.iter().flat_map(|body| body.warnings.iter().cloned());
+    let of_drift = slow_checks::warnings_of_slow_drift(&made).into_iter().chain(of_damping);
+    for text in run_tables::warnings_of_step(&made).into_iter().chain(of_drift) {
         // at once for who looks on; for the log with the record
         going.bar.println(format!("warning: {text}"));
         job.warn(text, span);
@@ -499,6 +503,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let screening = screening.unwrap_or_default();
     first.add_notes(screening::remarks(&screening, job.units));
     let mut tables = vec![first];
+    tables.extend(drift_damping_table(&dampings));
     tables.extend(run_tables::extremes(&made));
     tables.extend(run_tables::balance(&made));
     // what is not found of them costs no run

@@ -218,6 +218,32 @@ fn drift_of_hemisphere_by_records_meets_exact_series() {
 }
 
 #[test]
+fn wave_drift_damping_of_hemisphere_by_panels_meets_exact_series() {
+    // K = 0.8, held: along the waves w/g (4 D + 2 K dD/dK), across them 2 w D/g, by differences of five rows of the exact series; 1.5 % of the larger
+    let text = std::fs::read_to_string("crates/diffraction/tests/data/hemisphere.csv").unwrap();
+    let rows: Vec<Vec<f64>> =
+        text.lines().skip(2).map(|l| l.split(',').map(|w| w.parse().unwrap()).collect()).collect();
+    let at = |k: f64| rows.iter().find(|n| (n[0] - k).abs() < 1e-9).unwrap()[9];
+    let (radius, k) = (10.0, 0.8);
+    let slope = (at(0.6) - 8.0 * at(0.7) + 8.0 * at(0.9) - at(1.0)) / 1.2;
+    let frequency = |k: f64| (k * 9.80665 / radius).sqrt();
+    let scale = 1025.0 * radius * frequency(k);
+    let (along, across) = (scale * (4.0 * at(k) + 2.0 * k * slope), scale * 2.0 * at(k));
+    let periods: Vec<String> = [0.6, 0.7, 0.8, 0.9, 1.0].map(|k| (TAU / frequency(k)).to_string()).to_vec();
+    let records = format!(
+        "&ENV -SEA REGULAR 180 2 {}\nHYDRODYNAMICS\nG_PRESSURE BALL -PERIOD {} -HEADING 0 45 90 135 180 225 270 315 -PANEL 3\nG_MDRIFT BALL\nEND\n",
+        TAU / frequency(k),
+        periods.join(" ")
+    );
+    let (session, text) = ball(radius, 16, "-IGNORE X Y Z RX RY RZ", 0.0, &records);
+    let found = windlass_solve::drift_damping::body_drift_dampings(&session.job.model).unwrap();
+    let found = found.first().unwrap_or_else(|| panic!("{text}")).damping;
+    for (made, exact) in [(found[(0, 0)], along), (found[(1, 1)], across), (found[(0, 1)], 0.0), (found[(1, 0)], 0.0)] {
+        assert!((made - exact).abs() < 0.015 * along, "{made} for {exact}");
+    }
+}
+
+#[test]
 fn drift_of_hemisphere_is_checked_by_control_surface() {
     let text = std::fs::read_to_string("crates/diffraction/tests/data/hemisphere.csv").unwrap();
     let rows: Vec<Vec<f64>> =

@@ -16,7 +16,7 @@ const FIN: &str = "BLOCK FIN -1 -1 -8 1 1 -5 -PERM 0";
 #[test]
 fn effect_on_motions_stops_motions_and_not_rest() {
     for (option, effect) in [
-        ("-DD_MULT 2", "-DD_MULT 2 of piece FIN (wave drift damping"),
+        ("-DD_MULT 2 1 4 2", "-DD_MULT 2 1 4 2 of piece FIN (factors by ratio"),
         ("-OBSTACLE", "-OBSTACLE of piece FIN (what a fixed obstacle"),
         ("-AMASS 1", "-AMASS 1 of piece FIN (added mass"),
     ] {

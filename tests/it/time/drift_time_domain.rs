@@ -132,6 +132,7 @@ fn drift_from_both_records_and_database_is_refused() {
         at: [0.0; 3],
         memory: None,
         drift: windlass_model::DriftMethod::Newman,
+        drift_damping: None,
         hydrostatics: false,
         span,
     };

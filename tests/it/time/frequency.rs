@@ -78,6 +78,7 @@ fn attach(model: &mut Model, drift: DriftMethod) {
         at: [0.0; 3],
         memory: None,
         drift,
+        drift_damping: None,
         hydrostatics: false,
         span: Span::default(),
     });

@@ -1,24 +1,29 @@
 //! What the database of a body brings among its loads.
 
+use super::drift_damping::{DriftByVelocity, DriftWater};
 use super::excitation::Excitation;
 use super::interaction::own_radiation;
 use super::memory::{MAX_LAGS, RetardationMemory};
 use super::radiation::Radiation;
-use super::slow_drift::SlowDrift;
+use super::slow_drift::{DriftCoefficients, SlowDrift};
 use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, InertialLoad, PreparedLoad, StatefulLoad};
 use crate::low_frequency::{LowFrequency, LowFrequencyPosition, dividing_period};
 use crate::sea::Sea;
-use crate::steady::Steady;
+use crate::steady::{Medium, Steady};
 use crate::{Category, Load, in_pose, move_stiffness};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
 use windlass_model::{
-    AttachedDatabase, Body, ClassError, Database, DriftMethod, LinearHydrostatics, LoadKind, Mass, Model, PartLoad,
+    AttachedDatabase, Body, ClassError, Database, DriftMethod, DriftTable, LinearHydrostatics, LoadKind, Mass, Model,
+    PartLoad,
 };
 
 /// The step of the memory where the environment gives none (s).
 const USUAL_STEP: f64 = 0.1;
+
+/// Frequencies from which on every second one is looked at alone.
+const MIN_HALVED: usize = 5;
 
 /// What a database brings.
 #[derive(Debug)]
@@ -349,10 +354,10 @@ pub fn gather_database_loads(
             if !data.excitation.is_empty() {
                 loads.push(Box::new(Excitation::new(data, sea)?.with_dividing_period(dividing)));
             }
-            loads.extend(build_slow_drift(attached, sea)?.map(|l| Box::new(l) as Box<dyn BodyLoad>));
+            loads.extend(build_slow_drift(model, body, attached, sea)?.map(|l| Box::new(l) as Box<dyn BodyLoad>));
         }
         Some(None) => {}
-        None => loads.extend(mean(model, attached)?.map(|l| Box::new(l) as Box<dyn BodyLoad>)),
+        None => loads.extend(mean_slow_drift(model, body)?.map(|l| Box::new(l) as Box<dyn BodyLoad>)),
     }
     let loads = loads.into_iter().map(|load| {
         let factor = model.multipliers.factor(load.category().name(), &body.name);
@@ -380,37 +385,188 @@ fn drift_once(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result
 }
 
 /// The mean drift by heading and frequency: as it is given, or of the pairs of equal waves.
-fn drift_of(data: &Database) -> Option<windlass_model::DriftTable> {
+fn drift_of(data: &Database) -> Option<DriftTable> {
     data.drift.clone().or_else(|| data.qtf.as_ref().map(super::slow_drift::mean_drift))
 }
 
-/// The slow drift of a sea.
-fn build_slow_drift(attached: &AttachedDatabase, sea: &Arc<Sea>) -> Result<Option<SlowDrift>, ClassError> {
-    let data = attached.data.as_ref();
-    if attached.drift == DriftMethod::Full
-        && let Some(qtf) = &data.qtf
-    {
-        return SlowDrift::full(&Arc::new(qtf.clone()), data.reference, sea).map(Some);
-    }
-    let Some(table) = drift_of(data) else { return Ok(None) };
-    match attached.drift {
-        DriftMethod::None => Ok(None),
-        DriftMethod::Mean => SlowDrift::mean(&table, data.reference, sea).map(Some),
-        DriftMethod::Newman | DriftMethod::Full => SlowDrift::newman(&table, data.reference, sea).map(Some),
+/// What a velocity changes of the mean drift of a body.
+#[derive(Clone, Debug)]
+pub enum VelocityEffect {
+    /// It acts.
+    Acts(Box<DriftByVelocity>),
+    /// It is left out though the body has drift, for a reason.
+    LeftOut(String),
+    /// -DD_MULT 0 leaves it out.
+    OffByFactor,
+    /// The body has no drift by its database, or leaves that out.
+    None,
+}
+
+impl VelocityEffect {
+    fn acting(&self) -> Option<&DriftByVelocity> {
+        match self {
+            VelocityEffect::Acts(made) => Some(made),
+            VelocityEffect::LeftOut(_) | VelocityEffect::OffByFactor | VelocityEffect::None => None,
+        }
     }
 }
 
-/// The mean drift on the body at rest.
-fn mean(model: &Model, attached: &AttachedDatabase) -> Result<Option<SlowDrift>, ClassError> {
+/// What wave drift damping and a current change of the mean drift of a body, in the environment in force.
+///
+/// # Errors
+/// Pieces that give two factors; a current that cannot be computed.
+pub fn velocity_effect(model: &Model, body: &Body) -> Result<VelocityEffect, ClassError> {
+    let Some(attached) = body.database.as_ref().filter(|attached| attached.drift != DriftMethod::None) else {
+        return Ok(VelocityEffect::None);
+    };
+    let factor = drift_damping_factor(model, body, attached)?;
+    let Some(table) = table_in_use(attached) else { return Ok(VelocityEffect::None) };
+    if factor == 0.0 {
+        return Ok(VelocityEffect::OffByFactor);
+    }
+    velocity_effect_of(model, attached, &table, factor)
+}
+
+fn velocity_effect_of(
+    model: &Model,
+    attached: &AttachedDatabase,
+    table: &DriftTable,
+    factor: f64,
+) -> Result<VelocityEffect, ClassError> {
+    let steady = Steady::streams(model, &model.environment)?;
+    let surface = steady.around.tide;
+    let depths = [steady.around.depth.map(|depth| depth + surface), attached.data.depth];
+    let water = DriftWater {
+        gravity: attached.data.gravity,
+        depth: depths.into_iter().flatten().reduce(f64::min),
+        current: steady.velocity(Medium::Water, surface).0.xy(),
+    };
+    Ok(match DriftByVelocity::new(table, water, factor) {
+        Ok(made) => VelocityEffect::Acts(Box::new(made)),
+        Err(reason) => VelocityEffect::LeftOut(reason),
+    })
+}
+
+/// The factor of the wave drift damping of a body: of its database, else of its pieces, else one.
+fn drift_damping_factor(model: &Model, body: &Body, attached: &AttachedDatabase) -> Result<f64, ClassError> {
+    if let Some(factor) = attached.drift_damping {
+        return Ok(factor);
+    }
+    let mut given = model.parts_of(body).flat_map(|part| &part.pieces).filter_map(|p| Some((p, p.drift_damping?)));
+    let Some((first, factor)) = given.next() else { return Ok(1.0) };
+    match given.find(|(_, other)| *other != factor) {
+        None => Ok(factor),
+        Some((piece, other)) => Err(ClassError::new(format!(
+            "{} has one drift, and two factors of its wave drift damping: -DD_MULT {factor} of piece {}, {other} of {}",
+            body.name, first.name, piece.name
+        ))
+        .with_span(piece.span)
+        .help("give the pieces of a body the same -DD_MULT")),
+    }
+}
+
+/// The drift by heading and frequency that acts.
+fn table_in_use(attached: &AttachedDatabase) -> Option<DriftTable> {
+    let data = attached.data.as_ref();
+    match &data.qtf {
+        Some(qtf) if attached.drift == DriftMethod::Full => Some(super::slow_drift::mean_drift(qtf)),
+        _ => drift_of(data),
+    }
+}
+
+/// The slow drift of a sea.
+fn build_slow_drift(
+    model: &Model,
+    body: &Body,
+    attached: &AttachedDatabase,
+    sea: &Arc<Sea>,
+) -> Result<Option<SlowDrift>, ClassError> {
+    let data = attached.data.as_ref();
+    let Some(table) = table_in_use(attached).filter(|_| attached.drift != DriftMethod::None) else { return Ok(None) };
+    let effect = velocity_effect(model, body)?;
+    let coefficients = DriftCoefficients { table: &table, reference: data.reference, by_velocity: effect.acting() };
+    let made = match (attached.drift, &data.qtf) {
+        (DriftMethod::Full, Some(qtf)) => SlowDrift::full(&Arc::new(qtf.clone()), coefficients, sea)?,
+        (DriftMethod::Mean, _) => SlowDrift::mean(coefficients, sea)?,
+        _ => SlowDrift::newman(coefficients, sea)?,
+    };
+    let environment = &model.environment;
+    let stream = Steady::streams(model, environment)?.under_way(model, environment)?;
+    Ok(Some(match stream.variation {
+        Some(_) if !stream.is_still(Medium::Water) => made.with_stream(Arc::new(stream)),
+        _ => made,
+    }))
+}
+
+/// The mean drift on the body at rest in the waves of the environment; none without waves or drift.
+///
+/// # Errors
+/// As [`velocity_effect`]; waves that cannot be computed.
+pub fn mean_slow_drift(model: &Model, body: &Body) -> Result<Option<SlowDrift>, ClassError> {
+    let Some(attached) = &body.database else { return Ok(None) };
     let data = attached.data.as_ref();
     let Some(table) = drift_of(data).filter(|_| attached.drift != DriftMethod::None) else { return Ok(None) };
+    let effect = velocity_effect(model, body)?;
+    mean_of_waves(model, &table, attached, &effect)
+}
+
+/// The same of every second frequency of the mean drift, from the last on: how much they differ shows whether the frequencies stand near
+/// enough to each other for the slopes that a velocity brings in. None of fewer than five frequencies.
+///
+/// # Errors
+/// As [`mean_slow_drift`].
+pub fn coarse_slow_drift(model: &Model, body: &Body) -> Result<Option<SlowDrift>, ClassError> {
+    let Some(attached) = &body.database else { return Ok(None) };
+    let Some(mut table) = drift_of(&attached.data).filter(|_| attached.drift != DriftMethod::None) else {
+        return Ok(None);
+    };
+    let count = table.frequencies.len();
+    if count < MIN_HALVED {
+        return Ok(None);
+    }
+    let is_kept = |at: &usize| (count - 1 - at).is_multiple_of(2);
+    let keep = |list: &[[f64; 6]]| list.iter().enumerate().filter(|(at, _)| is_kept(at)).map(|(_, six)| *six).collect();
+    table.values = table.values.iter().map(|row| keep(row)).collect();
+    table.frequencies = table.frequencies.iter().enumerate().filter(|(at, _)| is_kept(at)).map(|(_, w)| *w).collect();
+    let factor = drift_damping_factor(model, body, attached)?;
+    let effect = velocity_effect_of(model, attached, &table, factor)?;
+    mean_of_waves(model, &table, attached, &effect)
+}
+
+/// The mean drift of a body without the part of its wave drift damping that comes of the change of the drift with the heading, and how far apart the headings
+/// of the drift stand around the waves (rad): whether that part is sure. None where no damping acts.
+///
+/// # Errors
+/// As [`mean_slow_drift`].
+pub fn slow_drift_without_heading_slopes(model: &Model, body: &Body) -> Result<Option<(SlowDrift, f64)>, ClassError> {
+    let Some(attached) = &body.database else { return Ok(None) };
+    let (Some(table), VelocityEffect::Acts(made)) = (drift_of(&attached.data), velocity_effect(model, body)?) else {
+        return Ok(None);
+    };
+    let yaw = super::excitation::yaw(&Pose::from_place(&body.position));
+    let mut gap: f64 = 0.0;
+    for (toward, _) in Steady::new(model)?.waves {
+        gap = gap.max(made.heading_gap(toward.y.atan2(toward.x) - yaw)?);
+    }
+    let effect = VelocityEffect::Acts(Box::new(made.without_heading_slopes()));
+    Ok(mean_of_waves(model, &table, attached, &effect)?.map(|drift| (drift, gap)))
+}
+
+/// The mean drift of a table in the waves of the environment; none without waves.
+fn mean_of_waves(
+    model: &Model,
+    table: &DriftTable,
+    attached: &AttachedDatabase,
+    effect: &VelocityEffect,
+) -> Result<Option<SlowDrift>, ClassError> {
     let steady = Steady::new(model)?;
     if steady.waves.is_empty() {
         return Ok(None);
     }
     let seas: Vec<(f64, &[(f64, f64)])> =
         steady.waves.iter().map(|(toward, waves)| (toward.y.atan2(toward.x), waves.energies.as_slice())).collect();
-    SlowDrift::mean_of(&table, data.reference, &seas).map(Some)
+    let coefficients = DriftCoefficients { table, reference: attached.data.reference, by_velocity: effect.acting() };
+    SlowDrift::mean_of(coefficients, &seas).map(Some)
 }
 
 /// The hydrostatics of the database of a body as a load.

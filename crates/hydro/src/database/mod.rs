@@ -1,12 +1,13 @@
 //! Hydrodynamic databases: what programs of potential flow computed, and the forces it makes in time.
 //!
 //! The data and its conventions are [`Database`] of the model. Sources are read by [`wamit`], [`nemoh`], [`capytaine`], [`aqwa`] and [`rao`]; [`interpolation`]
-//! interpolates; [`radiation`], [`interaction`], [`excitation`] and [`slow_drift`] make the loads on a body, which [`attached`] puts together.
+//! interpolates; [`radiation`], [`interaction`], [`excitation`], [`slow_drift`] and [`drift_damping`] make the loads on a body, which [`attached`] puts together.
 
 pub mod aqwa;
 pub mod attached;
 pub mod capytaine;
 pub mod checks;
+pub mod drift_damping;
 pub mod excitation;
 pub mod interaction;
 pub mod interpolation;

@@ -8,7 +8,7 @@ use windlass_base::pose::Six;
 use windlass_hydro::database::excitation::Excitation;
 use windlass_hydro::database::memory::RetardationMemory;
 use windlass_hydro::database::radiation::Radiation;
-use windlass_hydro::database::slow_drift::SlowDrift;
+use windlass_hydro::database::slow_drift::{DriftCoefficients, SlowDrift, mean_drift};
 use windlass_hydro::database::{Database, DriftTable, Qtf, capytaine};
 use windlass_hydro::database::{DatabaseLookup, drift_at};
 use windlass_hydro::sea::{Component, Sea, Water};
@@ -320,11 +320,16 @@ fn drift() -> DriftTable {
     DriftTable { values: headings.iter().map(row).collect(), frequencies, headings, method: None }
 }
 
+/// A table about the origin, of which no velocity changes anything.
+fn about_origin(table: &DriftTable) -> DriftCoefficients<'_> {
+    DriftCoefficients { table, reference: Vector3::zeros(), by_velocity: None }
+}
+
 #[test]
 fn newman_product_matches_double_sum() {
     let table = drift();
     let sea = sea(crossing());
-    let slow = SlowDrift::newman(&table, Vector3::zeros(), &sea).unwrap();
+    let slow = SlowDrift::newman(about_origin(&table), &sea).unwrap();
     let (time, x, y, yaw) = (211.0, 3.0, 4.0, 0.2);
     let mut wanted = Six::zeros();
     let of = |c: &Component| {
@@ -352,8 +357,8 @@ fn newman_qtf_matches_mean_drifts_and_full_qtf_double_sum() {
     });
     let qtf =
         Qtf { frequencies: table.frequencies.clone(), headings: table.headings.clone(), values: values.collect() };
-    let full = SlowDrift::full(&Arc::new(qtf.clone()), Vector3::zeros(), &sea).unwrap();
-    let newman = SlowDrift::newman(&table, Vector3::zeros(), &sea).unwrap();
+    let full = SlowDrift::full(&Arc::new(qtf.clone()), about_origin(&mean_drift(&qtf)), &sea).unwrap();
+    let newman = SlowDrift::newman(about_origin(&table), &sea).unwrap();
     for time in [0.0, 17.0, 400.0] {
         let (a, b) = (full.force(time, (1.0, 2.0), 0.1).unwrap(), newman.force(time, (1.0, 2.0), 0.1).unwrap());
         assert!((a - b).amax() < 1e-9 * b.amax(), "{a} {b}");
@@ -367,7 +372,7 @@ fn newman_qtf_matches_mean_drifts_and_full_qtf_double_sum() {
         table[1][1][0] = nalgebra::Complex::from(4.0);
     }
     let pair = sea_of_two();
-    let full = SlowDrift::full(&Arc::new(odd), Vector3::zeros(), &pair).unwrap();
+    let full = SlowDrift::full(&Arc::new(odd.clone()), about_origin(&mean_drift(&odd)), &pair).unwrap();
     let time = 11.0;
     // 3 a2 + 4 b2 + 2 Re((2 + 5i) a b exp(-i (0.3 - 0.8) t))
     let (a, b, q): (f64, f64, f64) = (1.5, 0.5, 0.5 * time);
@@ -383,8 +388,8 @@ fn sea_of_two() -> Arc<Sea> {
 fn mean_slow_drift_matches_mean_at_rest() {
     let table = drift();
     let sea = sea_of_two();
-    let slow = SlowDrift::newman(&table, Vector3::zeros(), &sea).unwrap();
-    let mean = SlowDrift::mean(&table, Vector3::zeros(), &sea).unwrap().force(0.0, (0.0, 0.0), 0.0).unwrap();
+    let slow = SlowDrift::newman(about_origin(&table), &sea).unwrap();
+    let mean = SlowDrift::mean(about_origin(&table), &sea).unwrap().force(0.0, (0.0, 0.0), 0.0).unwrap();
     // whole beats of 2 pi / 0.5 s
     let count = 1000;
     let at = |n: i32| slow.force(TAU / 0.5 * f64::from(n) / f64::from(count), (0.0, 0.0), 0.0).unwrap();

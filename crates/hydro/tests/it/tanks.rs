@@ -29,6 +29,7 @@ fn model(fraction: f64) -> Model {
         waves: WaveAction::ByForm,
         own_panels: false,
         eddy_damping: 0.0,
+        drift_damping: None,
         kept: Vec::new(),
         unmodelled: Vec::new(),
         compartment: Some("T".into()),

@@ -9,6 +9,8 @@ use windlass_base::dense::{DenseError, Lu, SymmetricEigen, never};
 use windlass_base::pose::{Pose, Six};
 use windlass_base::table::TableNote;
 use windlass_base::units::Dim;
+use windlass_hydro::database::attached::{VelocityEffect, mean_slow_drift, velocity_effect};
+use windlass_hydro::database::drift_damping::DriftByVelocity;
 use windlass_hydro::database::interaction::{InteractionRadiation, interaction_radiations, own_radiation};
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::roll_damping::fix_critical_damping;
@@ -45,6 +47,8 @@ pub(super) struct Floats {
     pub factors: [f64; 3],
     /// Mean drift by heading and frequency, where it makes slow drift.
     pub drift: Option<DriftTable>,
+    /// What the current changes of it.
+    pub by_velocity: Option<Box<DriftByVelocity>>,
 }
 
 /// The linear equations about a place, usually that of an equilibrium.
@@ -64,6 +68,8 @@ pub struct LinearSystem {
     pub(super) damping: DMatrix<f64>,
     /// What a sea adds to it by linearisation.
     pub(super) linearised: DMatrix<f64>,
+    /// Wave drift damping in the sea of the environment, which slow motions have beside it.
+    drift_damping: DMatrix<f64>,
     /// Motions of all degrees of freedom by those that have inertia; held ones do not move, massless ones follow.
     follow: DMatrix<f64>,
     /// The degrees of freedom that have inertia.
@@ -116,7 +122,12 @@ impl Floats {
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
         let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(mean_drift));
         let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
-        Ok(Floats { attached: attached.clone(), infinite, yaw, factors, drift: slow.then(table).flatten() })
+        let by_velocity = match velocity_effect(model, body)? {
+            VelocityEffect::Acts(made) => Some(made),
+            VelocityEffect::LeftOut(_) | VelocityEffect::OffByFactor | VelocityEffect::None => None,
+        };
+        let drift = slow.then(table).flatten();
+        Ok(Floats { attached: attached.clone(), infinite, yaw, factors, drift, by_velocity })
     }
 }
 
@@ -131,6 +142,7 @@ impl LinearSystem {
         let mut state = system.state(model);
         system.evaluate(&mut state)?;
         let (mut floats, mut mass) = (Vec::new(), system.mass_matrix(&state.poses));
+        let mut drift_damping = DMatrix::zeros(mass.nrows(), mass.nrows());
         for (index, (node, pose)) in system.nodes.iter().zip(&state.poses).enumerate() {
             if model.bodies.get(&node.key).is_some_and(|b| b.prescribed.is_some()) {
                 let text = "its motion is given in time: the frequency domain has none for it";
@@ -143,6 +155,11 @@ impl LinearSystem {
                 let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose)
                     - in_pose(&made.infinite, pose);
                 mass.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
+                let body = model.bodies.get(&node.key);
+                let damping = body.map(|body| drift_damping_of(model, body, pose)).transpose();
+                let [.., factor] = made.factors;
+                let damping = damping.map_err(SolveError::error_about(&node.name))?.unwrap_or_default() * factor;
+                drift_damping.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&damping);
             }
             floats.push(made);
         }
@@ -164,6 +181,7 @@ impl LinearSystem {
             mass,
             damping,
             linearised,
+            drift_damping,
             follow,
             heavy,
             floats,
@@ -338,6 +356,17 @@ impl LinearSystem {
         (mass, damping)
     }
 
+    /// The same with the wave drift damping in the sea of the environment: for motions that are slow beside its waves.
+    pub fn slow_inertia_and_damping(&self, frequency: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+        let (mass, damping) = self.inertia_and_damping(frequency);
+        (mass, damping + &self.drift_damping)
+    }
+
+    /// Whether a body has wave drift damping.
+    pub fn has_drift_damping(&self) -> bool {
+        self.drift_damping.amax() > 0.0
+    }
+
     /// Forces of a wave of unit amplitude (m) that travels toward a direction (rad) with its crest at the global origin, six a body (N, N m).
     ///
     /// # Errors
@@ -450,6 +479,11 @@ impl LinearSystem {
         }
         Ok(all)
     }
+}
+
+/// The wave drift damping of a body in the sea of the environment, about its origin, global axes.
+fn drift_damping_of(model: &Model, body: &Body, pose: &Pose) -> Result<Matrix6<f64>, ClassError> {
+    mean_slow_drift(model, body)?.map_or(Ok(Matrix6::zeros()), |drift| drift.damping_on_body(pose))
 }
 
 /// Several names as the subject of a sentence.

@@ -43,7 +43,7 @@ fn iterate_mode(linear: &LinearSystem, mut mode: SystemMode, floats: bool) -> Re
             break;
         }
         let w = frequency(&mode);
-        let (mass, _) = linear.inertia_and_damping(w);
+        let (mass, _) = linear.slow_inertia_and_damping(w);
         let list = modes_with(&linear.system, &mass, &linear.stiffness)?;
         // the one most alike in shape, with translations and rotations weighed by their inertia
         let weigh = |i: usize| mass[(i, i)].max(0.0);
@@ -61,7 +61,7 @@ fn iterate_mode(linear: &LinearSystem, mut mode: SystemMode, floats: bool) -> Re
     }
     let w = frequency(&mode);
     let damping = (mode.eigenvalue > UNRESTRAINED_EIGENVALUE).then(|| {
-        let (mass, damping) = linear.inertia_and_damping(w);
+        let (mass, damping) = linear.slow_inertia_and_damping(w);
         let of = |m: &nalgebra::DMatrix<f64>| mode.shape.dot(&(m * &mode.shape));
         of(&damping) / (2.0 * w * of(&mass))
     });

@@ -61,7 +61,7 @@ pub(super) fn drift(
             }
             list.push(force);
         }
-        let parts = linear.motions(*frequency, &list)?;
+        let parts = linear.motions_with(*frequency, linear.slow_inertia_and_damping(*frequency), &list)?;
         points.push(ResponsePoint {
             frequency: *frequency,
             width: Some(width),
@@ -139,8 +139,13 @@ fn drifts(
             return Ok(Six::zeros());
         };
         let name = linear.system.nodes[*body].name.as_str();
-        let [x, y, z, rx, ry, rz] =
-            drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::error_about(name))?;
+        let still = drift_at(table, toward - floats.yaw, frequency).map_err(SolveError::error_about(name))?;
+        let [x, y, z, rx, ry, rz] = match &floats.by_velocity {
+            Some(made) => {
+                made.in_current(still, (toward, floats.yaw), frequency).map_err(SolveError::error_about(name))?
+            }
+            None => still,
+        };
         let (sin, cos) = floats.yaw.sin_cos();
         let force = Six::new(x * cos - y * sin, x * sin + y * cos, z, rx * cos - ry * sin, rx * sin + ry * cos, rz);
         let axes = linear.poses[*body].axes;

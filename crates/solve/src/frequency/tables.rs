@@ -285,6 +285,9 @@ pub fn modes(linear: &LinearSystem) -> Result<[Table; 2], SolveError> {
         }
     }
     periods.note("periods are undamped, with added mass at the period of each mode; the ratio is to critical damping");
+    if linear.has_drift_damping() {
+        periods.note("damping has the wave drift damping of the sea of the environment");
+    }
     linear.notes.iter().for_each(|n| periods.note(n.clone()));
     let period = |n: &Natural| n.mode.period.filter(|_| n.damping.is_some());
     let rows: Vec<(usize, &Natural)> = list.iter().enumerate().collect();

@@ -66,6 +66,7 @@ fn model(pull: f64, height: f64) -> Model {
             at: CENTRE,
             memory: None,
             drift: DriftMethod::None,
+            drift_damping: None,
             hydrostatics: false,
             span,
         }),
