@@ -163,9 +163,12 @@ impl PressureFile<'_> {
         )?;
         made.numbers("body_heading", &["body"], "rad", "heading of the body", points(&|body| vec![body.heading]))?;
         made.numbers("disp_mass", &["body"], "kg", "displaced mass", points(&|body| vec![body.mass]))?;
-        let haskind = self.forces.iter().map(FrequencyForces::excitation_difference).collect();
-        let text = "largest difference of both exciting forces, over the largest";
+        let differences: Vec<_> = self.forces.iter().map(FrequencyForces::excitation_difference).collect();
+        let haskind = differences.iter().map(|made| made.map_or(0.0, |made| made.share)).collect();
+        let text = "difference of both exciting forces over the largest of the motion, in that where it is largest";
         made.numbers("haskind_difference", &["frequency"], "1", text, haskind)?;
+        let motions = differences.iter().map(|made| made.map_or(0.0, |made| made.motion as f64)).collect();
+        made.numbers("haskind_motion", &["frequency"], "1", "that motion, six a body, from 0", motions)?;
         let text =
             "largest difference of the damping from the energy of the waves far away, over the largest of its kind";
         made.numbers("energy_difference", &["frequency"], "1", text, self.energy.to_vec())?;

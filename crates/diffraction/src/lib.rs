@@ -54,6 +54,9 @@ pub use field::{ControlBox, ControlCylinder, ControlSurface, ControlSurfaceDrift
 pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
 pub use panel::Panel;
-pub use problem::{DampedPatch, DiffractionBody, DiffractionProblem, FrequencyForces, FrequencyLimit, MOTIONS, Water};
+pub use problem::{
+    DampedPatch, DiffractionBody, DiffractionProblem, ExcitationDifference, FrequencyForces, FrequencyLimit, MOTIONS,
+    Water,
+};
 pub use quality::MeshQuality;
 pub use wave_solution::{FarFieldDrift, WaveSolution};

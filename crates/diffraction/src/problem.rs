@@ -103,22 +103,43 @@ pub struct FrequencyForces {
     pub iterations: usize,
 }
 
+/// Share of the largest exciting force of its kind on its body below which a motion is measured by that share.
+const LEAST_OF_KIND: f64 = 0.05;
+
+/// How far exciting forces by pressure are off those by Haskind's relation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExcitationDifference {
+    /// The motion where they differ most, six a body.
+    pub motion: usize,
+    /// The difference over the largest force of that motion.
+    pub share: f64,
+}
+
 impl FrequencyForces {
-    /// The largest difference between exciting forces by pressure and by Haskind's relation, over the largest force or moment of all bodies and
-    /// headings: forces and moments apart, the larger of the two. It measures the mesh; 0 where there are no headings.
-    pub fn excitation_difference(&self) -> f64 {
-        let mut kinds = [[0.0_f64; 2]; 2];
+    /// The motion whose exciting forces by pressure and by Haskind's relation differ most, over the largest of that motion at all headings. A motion whose forces are
+    /// less than a twentieth of the largest of its kind (forces or moments) on its body, as one that symmetry leaves without any, is measured by that
+    /// twentieth. It measures the mesh; none where there are no headings.
+    pub fn excitation_difference(&self) -> Option<ExcitationDifference> {
+        let count = self.excitation.first().map_or(0, Vec::len);
+        let mut motions = vec![[0.0_f64; 2]; count];
         for (by_haskind, by_pressure) in self.excitation.iter().zip(&self.pressure_excitation) {
-            for (motion, (haskind, pressure)) in by_haskind.iter().zip(by_pressure).enumerate() {
-                let [difference, largest] = &mut kinds[usize::from(motion % MOTIONS >= 3)];
+            for ([difference, largest], (haskind, pressure)) in
+                motions.iter_mut().zip(by_haskind.iter().zip(by_pressure))
+            {
                 *difference = difference.max((pressure - haskind).norm());
                 *largest = largest.max(haskind.norm());
             }
         }
-        kinds
-            .iter()
-            .filter(|kind| kind[1] > 0.0)
-            .fold(0.0, |most: f64, [difference, largest]| most.max(difference / largest))
+        let kind = |motion: usize| {
+            let first = motion - motion % 3;
+            motions.iter().skip(first).take(3).fold(0.0, |most: f64, [_, largest]| most.max(*largest))
+        };
+        let share = |(motion, [difference, largest]): (usize, &[f64; 2])| {
+            let measure = largest.max(LEAST_OF_KIND * kind(motion));
+            (measure > 0.0).then_some(ExcitationDifference { motion, share: difference / measure })
+        };
+        let found = motions.iter().enumerate().filter_map(share);
+        found.reduce(|most, other| if other.share > most.share { other } else { most })
     }
 }
 

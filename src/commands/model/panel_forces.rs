@@ -38,6 +38,10 @@ const LEAST_PANELS_A_WAVE: f64 = 4.0;
 const MAX_PANELS: usize = 20_000;
 /// Panels across a rectangle of damped surface, at least.
 const LEAST_LID_PANELS: f64 = 2.0;
+/// Growth of a size of panels that does not fit, how often it grows (a thousandfold in all), and how often the step that fits is halved.
+const SIZE_GROWTH: f64 = 1.15;
+const MAX_SIZE_TRIES: usize = 50;
+const SIZE_HALVINGS: usize = 5;
 /// Bytes of a pair of panels in a symmetry class, its Rankine part included.
 const BYTES_A_PAIR: u64 = 24;
 /// Bytes that matrices may take where the system does not say how much memory is free.
@@ -52,6 +56,8 @@ const POOR_EXCITATION: f64 = 0.05;
 const LEAST_CLEARANCE: f64 = 1e-3;
 const HULL_HELP: &str =
     "BLOCK, PGEN, PANEL or a mesh file give closed pieces; &INSTATE -LOCATE or &EQUI puts the body at its draught";
+/// The six motions of a body.
+const MOTION_NAMES: [&str; 6] = ["surge", "sway", "heave", "roll", "pitch", "yaw"];
 /// How the source of a database begins that was made here.
 pub const SOURCE: &str = "G_PRESSURE";
 
@@ -200,15 +206,23 @@ impl MeshedBodies {
             if hull.has_own_panels { divided.max(hull.face_count() as f64) } else { divided }
         };
         let expected = hulls.iter().map(|(_, _, hull)| least(hull)).sum::<f64>() / images;
-        let refused = |problem: &ProblemSize| {
+        let refused = |problem: &ProblemSize, hulls: &[&WettedHull]| {
             let text = format!("{}: {}", names.join(", "), problem.sentence(available));
-            wrong(text).help(problem.remedy(size, available))
+            let at_size = |size: f64| ProblemSize::of_panels(hulls, &request.lids, mirrors, size);
+            let fitting = least_fitting_size(size, problem, available, at_size);
+            let lids = if problem.of_patches > 0.0 { "smaller rectangles of -LID" } else { "smaller hulls" };
+            wrong(text).help(match fitting {
+                Some(size) => format!("-PANEL {size} fits, or {lids}, or hulls with planes of symmetry"),
+                None => format!(
+                    "no -PANEL that the hulls and lids have room for fits: {lids}, or hulls with planes of symmetry"
+                ),
+            })
         };
         let damped: f64 =
             request.lids.iter().filter_map(|lid| LidPart::new(lid, size, mirrors)).map(|part| part.panels()).sum();
-        let rough = ProblemSize { panels: expected + damped, of_lids: damped, classes: images };
+        let rough = ProblemSize { panels: expected + damped, of_lids: damped, of_patches: damped, classes: images };
         if !rough.fits(available) {
-            return Err(refused(&rough));
+            return Err(refused(&rough, &hulls.iter().map(|(_, _, hull)| hull).collect::<Vec<_>>()));
         }
         let mut bodies = Vec::new();
         let mut parts = Vec::new();
@@ -240,9 +254,10 @@ impl MeshedBodies {
             })
             .collect();
         let of_lids = count(&|body| body.lid_panels) + damped;
-        let whole = ProblemSize { panels: count(&|body| body.panels) + of_lids, of_lids, classes: images };
+        let panels = count(&|body| body.panels) + of_lids;
+        let whole = ProblemSize { panels, of_lids, of_patches: damped, classes: images };
         if !whole.fits(available) {
-            return Err(refused(&whole));
+            return Err(refused(&whole, &bodies.iter().map(|body| &body.hull).collect::<Vec<_>>()));
         }
         let frequencies = choose_frequencies(names, request, size, water)?;
         let lids = request.lids.clone();
@@ -280,7 +295,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 3));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 4));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size].into_iter());
@@ -403,10 +418,26 @@ struct ProblemSize {
     /// Panels of a symmetry class, those of the lids among them.
     panels: f64,
     of_lids: f64,
+    /// Of these lids those that are given.
+    of_patches: f64,
     classes: f64,
 }
 
 impl ProblemSize {
+    /// That of hulls and given lids in panels of a size (m); none where the panels make no mesh.
+    fn of_panels(hulls: &[&WettedHull], lids: &[[f64; 5]], mirrors: MirrorPlanes, size: f64) -> Option<Self> {
+        let of_patches: f64 =
+            lids.iter().filter_map(|lid| LidPart::new(lid, size, mirrors)).map(|part| part.panels()).sum();
+        let (mut of_hulls, mut of_lids) = (0.0, of_patches);
+        for hull in hulls {
+            let quads = hull.panels(size.min(hull.longest_side()), [mirrors.x, mirrors.y]);
+            let plain = HullMesh::new(&quads, mirrors).ok()?;
+            of_hulls += plain.hull().len() as f64;
+            of_lids += plain.with_lid().map_or(0.0, |mesh| mesh.lid().len() as f64);
+        }
+        Some(ProblemSize { panels: of_hulls + of_lids, of_lids, of_patches, classes: mirrors.images().len() as f64 })
+    }
+
     fn bytes(&self) -> f64 {
         self.panels * self.panels * self.classes * BYTES_A_PAIR as f64
     }
@@ -423,14 +454,44 @@ impl ProblemSize {
             self.panels, self.classes
         )
     }
+}
 
-    /// Panels go as the inverse square of their size, memory as the square of panels.
-    fn remedy(&self, size: f64, available: u64) -> String {
-        let by_memory = (self.bytes() / (available as f64).max(1.0)).powf(0.25);
-        let by_count = (self.panels / MAX_PANELS as f64).sqrt();
-        let larger = if size.is_finite() && size > 0.0 { 1.05 * size * by_memory.max(by_count) } else { size };
-        format!("-PANEL {larger:.3} fits, or hulls with planes of symmetry")
+/// The least size of panels (m) with which a problem fits into memory that does not with a size, to three digits: the problem counts its panels, whole ones along
+/// each side. None where none fits.
+fn least_fitting_size(
+    size: f64,
+    refused: &ProblemSize,
+    available: u64,
+    at_size: impl Fn(f64) -> Option<ProblemSize>,
+) -> Option<f64> {
+    if !(size.is_finite() && size > 0.0) {
+        return None;
     }
+    let fits = |size: f64| at_size(size).is_some_and(|problem| problem.fits(available));
+    let rounded_up = |size: f64| {
+        let digit = 10_f64.powf(size.log10().floor() - 2.0);
+        // through decimals, so that it is printed with three digits
+        let text =
+            format!("{:.*}", (2.0 - size.log10().floor()).max(0.0) as usize, (size / digit - 1e-6).ceil() * digit);
+        text.parse().unwrap_or(size)
+    };
+    // panels go as the inverse square of their size where that divides all, memory as the square of panels
+    let by_memory = (refused.bytes() / (available as f64).max(1.0)).powf(0.25);
+    let by_count = (refused.panels / MAX_PANELS as f64).sqrt();
+    let (mut low, mut high) = (size, size * by_memory.max(by_count).max(1.0));
+    let mut tries = 0;
+    while !fits(rounded_up(high)) {
+        tries += 1;
+        if tries > MAX_SIZE_TRIES {
+            return None;
+        }
+        (low, high) = (high, high * SIZE_GROWTH);
+    }
+    for _ in 0..SIZE_HALVINGS {
+        let middle = (low * high).sqrt();
+        if fits(rounded_up(middle)) { high = middle } else { low = middle }
+    }
+    Some(rounded_up(high))
 }
 
 /// Bytes in words.
@@ -642,8 +703,10 @@ fn solve(
 pub struct Quality {
     /// Products of the matrix until the equations were solved.
     products: Vec<f64>,
-    /// Largest difference of exciting forces by pressure and by Haskind's relation, over the largest.
+    /// Difference of exciting forces by pressure and by Haskind's relation over the largest of the motion, in that where it is largest.
     pub haskind: Vec<f64>,
+    /// That motion, six a body.
+    haskind_motion: Vec<f64>,
     /// Largest difference of the damping from the energy of the waves far away, over the largest of its kind.
     pub energy: Vec<f64>,
     /// Largest difference of added mass and damping from their transposes, over the largest of their kind.
@@ -659,10 +722,23 @@ impl Quality {
         Ok(Quality {
             products: numbers("products")?,
             haskind: numbers("haskind_difference")?,
+            haskind_motion: numbers("haskind_motion")?,
             energy: numbers("energy_difference")?,
             asymmetry: numbers("asymmetry")?,
             drift: numbers("drift_difference").ok(),
         })
+    }
+}
+
+impl Quality {
+    /// The motion where exciting forces differ most at a frequency, by its place, with its body where there are several.
+    fn worst_motion(&self, meshed: &MeshedBodies, at: usize) -> String {
+        let motion = self.haskind_motion.get(at).copied().unwrap_or(0.0) as usize;
+        let name = MOTION_NAMES.get(motion % 6).copied().unwrap_or_default();
+        match (meshed.bodies.len(), meshed.bodies.get(motion / 6)) {
+            (2.., Some(body)) => format!("{} {name}", body.name),
+            _ => name.to_owned(),
+        }
     }
 }
 
@@ -688,11 +764,17 @@ fn take_hull(model: &mut Model, body: &MeshedBody) {
 
 fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span: Span) {
     let all = meshed.names();
-    let poor = quality.haskind.iter().copied().fold(0.0, f64::max);
-    if poor > POOR_EXCITATION {
+    let worst = quality.haskind.iter().enumerate().reduce(|most, other| if other.1 > most.1 { other } else { most });
+    if let Some((at, poor)) = worst.filter(|(_, poor)| **poor > POOR_EXCITATION) {
+        // at edges the difference falls as the size
+        let finer = meshed.size * POOR_EXCITATION / poor;
         let text = format!(
-            "{all}: exciting forces by pressure and by Haskind's relation differ by {:.1} % of the largest: the panels are too large",
-            100.0 * poor
+            "{all}: the exciting forces of {} by pressure and by Haskind's relation differ by {:.1} % of the largest at a period of {:.2} s, more than {:.0} %: the panels are \
+             too large for it, and it may be short by as much; about -PANEL {finer:.2} would agree",
+            quality.worst_motion(meshed, at),
+            100.0 * poor,
+            TAU / meshed.frequencies.get(at).copied().unwrap_or(f64::NAN),
+            100.0 * POOR_EXCITATION
         );
         job.warn(text, span);
     }
@@ -755,7 +837,7 @@ fn ogilvie_figures(quality: &OgilvieQuality) -> String {
 fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &[Database])) -> Table {
     let water = meshed.water;
     let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
-    let rows: Vec<(f64, f64, f64, f64, usize, Option<f64>)> = meshed
+    let rows: Vec<(f64, f64, f64, f64, usize, Option<f64>, String)> = meshed
         .frequencies
         .iter()
         .enumerate()
@@ -764,7 +846,15 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
             let length = wave_length(*frequency, water);
             let sum = quality.drift.as_ref().map(|list| 100.0 * at(list, i)).filter(|off| off.is_finite());
             let products = at(&quality.products, i) as usize;
-            (TAU / frequency, length, length / meshed.size, 100.0 * at(&quality.haskind, i), products, sum)
+            (
+                TAU / frequency,
+                length,
+                length / meshed.size,
+                100.0 * at(&quality.haskind, i),
+                products,
+                sum,
+                quality.worst_motion(meshed, i),
+            )
         })
         .collect();
     let planes = match (meshed.mirrors.x, meshed.mirrors.y) {
@@ -780,6 +870,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         .column("", "Wave Length", Dim::Length, Digits::Decimals(2), |row| row.1)
         .column("", "Panels a Wave", Dim::None, Digits::Decimals(1), |row| row.2)
         .column("", "Haskind", Dim::None, Digits::Decimals(3), |row| row.3)
+        .text("In", |row| row.6.as_str())
         .column("", "Products", Dim::None, Digits::Usual, |row| row.4);
     let table = match &quality.drift {
         Some(_) => table.column("", "Drift", Dim::None, Digits::Decimals(2), |row| row.5),
@@ -826,7 +917,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     table = table.fact("Mean Drift", drift, Dim::None);
     table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
     table.note(
-        "Haskind: largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
+        "Haskind: difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion, in that where it is largest",
     );
     if !meshed.lids.is_empty() {
         table.note("the surface of each damping lid takes energy from the waves by its epsilon: what stands here is that of the epsilon that was given, which measurements or a model of the losses have to tell");
@@ -862,7 +953,7 @@ mod tests {
         let records = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\n&SURFACE\nBLOCK H -20 -6 -4 20 6 4\nEND_&SURFACE\nEND\n";
         session.open("records", records.to_owned());
         session.run();
-        let request = PanelRequest {
+        let mut request = PanelRequest {
             headings: vec![0.0],
             periods: vec![8.0],
             size: Some(2.0),
@@ -873,14 +964,38 @@ mod tests {
             kept: None,
             span: Span::default(),
         };
-        let within = |bytes: u64| MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, bytes);
-        let made = within(711_000).map_err(|error| error.message).unwrap();
+        let made = MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 711_000);
+        let made = made.map_err(|error| error.message).unwrap();
         assert_eq!((made.bodies[0].panels, made.bodies[0].lid_panels), (56, 30));
-        let refused = within(709_000).err().unwrap();
+        let refused = MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 709_000).err().unwrap();
         let text = format!("{} {}", refused.message, refused.help.join(" "));
-        assert!(
-            text.contains("30 of them of lids") && text.contains("0.71 MB") && text.contains("-PANEL 2.1"),
-            "{text}"
-        );
+        assert!(text.contains("30 of them of lids") && text.contains("0.71 MB"), "{text}");
+        // the sides are divided by whole panels: ten along a half as far as 20 m/9
+        let size: f64 = text.split("-PANEL ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!((20.0 / 9.0..20.0 / 9.0 * 1.02).contains(&size), "{text}");
+        request.size = Some(size);
+        let made = MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 709_000);
+        assert!(made.is_ok(), "{text}");
+        // a lid of 3 km by 0.2 m has two panels across, whatever their size: its panels go as the inverse of it, and the memory as its inverse square
+        request.size = Some(0.2);
+        request.lids = vec![[-1500.0, 20.0, 1500.0, 20.2, 0.1]];
+        let refused = MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 20_000_000).err().unwrap();
+        let text = format!("{} {}", refused.message, refused.help.join(" "));
+        let size: f64 = text
+            .split("-PANEL ")
+            .nth(1)
+            .unwrap_or_else(|| panic!("{text}"))
+            .split(' ')
+            .next()
+            .unwrap()
+            .parse()
+            .unwrap();
+        request.size = Some(size);
+        assert!(MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 20_000_000).is_ok(), "{text}");
+        request.size = Some(0.95 * size);
+        assert!(MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 20_000_000).is_err(), "{text}");
+        // nothing fits
+        let refused = MeshedBodies::within(&session.job.model, &["B".to_owned()], &request, 100).err().unwrap();
+        assert!(refused.help.join(" ").contains("no -PANEL"), "{:?}", refused.help);
     }
 }

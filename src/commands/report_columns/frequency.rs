@@ -88,8 +88,9 @@ pub(super) static REPORTS: &[ReportColumns] = &[
             column(
                 "Haskind",
                 NONE,
-                "largest difference of exciting forces by pressure and by Haskind's relation, per cent of the largest",
+                "difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion, in that where it is largest",
             ),
+            column("In", NONE, "the motion of which Haskind is"),
             column("Products", NONE, "products with the matrices until the equations were solved"),
             column(
                 "Drift",
