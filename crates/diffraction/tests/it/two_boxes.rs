@@ -255,7 +255,8 @@ fn difference_of_excitations_falls_with_panel_size() {
         problem.solve(3.5, &[0.5]).unwrap().excitation_difference().unwrap().share
     };
     let [coarse, fine] = [[7, 4, 3], [14, 8, 7]].map(difference);
-    assert!(fine < 0.6 * coarse && coarse < 0.1 && fine > 1e-4, "{coarse} {fine}");
+    // of the motion where it is worst, a moment of small panels' differences
+    assert!(fine < 0.6 * coarse && coarse < 0.2 && fine > 1e-4, "{coarse} {fine}");
 }
 
 #[test]
