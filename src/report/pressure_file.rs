@@ -2,7 +2,7 @@
 //!
 //! Source: [CAPYTAINE-3 Outputs, Export outputs] for dimensions and names: `omega`, `radiating_dof`, `influenced_dof`, `wave_direction`, `complex`. The last
 //! of `omega` is infinity, with the added mass alone. What Capytaine has not, for bodies with axes of their own, stands on the dimensions
-//! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading` and `mean_drift`; `damping_lid` has the rectangles of damped surface.
+//! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading`, `mean_drift` and `near_field_drift`; `damping_lid` has the rectangles of damped surface.
 
 use super::netcdf::{Shared, to_store_error};
 use super::stored::{SOURCE, StoreError};
@@ -39,6 +39,8 @@ pub struct FileBody {
 pub struct BodyDrift {
     /// By heading and body: surge, sway and yaw over the square of the wave amplitude, about the origin of the body (N/m2, N/m).
     pub values: Vec<Vec<[f64; 3]>>,
+    /// The same by the pressure on the hulls.
+    pub near: Vec<Vec<[f64; 3]>>,
     /// Of several bodies, heading by heading: the sum of their forces along x and y and of their moments about the vertical through the origin over the distance of
     /// the farthest body, and those by the waves far away (N/m2); none where both are not found apart from each other.
     pub sums: Vec<[[f64; 3]; 2]>,
@@ -180,6 +182,11 @@ impl PressureFile<'_> {
                 let values = drift.iter().flat_map(|own| own.values.iter().flatten().flatten()).copied().collect();
                 let places = ["frequency", "wave_direction", "body", "component"];
                 made.numbers("mean_drift", &places, "N/m2, N/m", "mean drift in surge, sway and yaw", values)?;
+                let near = drift.iter().flat_map(|own| own.near.iter().flatten().flatten()).copied().collect();
+                let text = "the same by the pressure on the hulls";
+                made.numbers("near_field_drift", &places, "N/m2, N/m", text, near)?;
+                let text = "largest difference of the drift of a body by the pressure on its hull from its mean drift, over the largest force of that body";
+                made.numbers("near_field_difference", &["frequency"], "1", text, near_differences(drift))?;
                 made.set.add_global_attr_string(DRIFT_METHOD, self.drift_methods.join("\n")).map_err(to_store_error)?;
                 if alone {
                     let checked =
@@ -210,6 +217,23 @@ impl PressureFile<'_> {
         let names: Vec<&str> = self.bodies.iter().map(|body| body.name.as_str()).collect();
         format!("G_PRESSURE of {}", names.join(", "))
     }
+}
+
+/// Frequency by frequency: the largest difference of the force by the pressure on a hull, over the largest force on that body of all.
+fn near_differences(drift: &[BodyDrift]) -> Vec<f64> {
+    let bodies = drift.iter().flat_map(|own| &own.values).map(Vec::len).max().unwrap_or(0);
+    let largest: Vec<f64> = (0..bodies)
+        .map(|body| {
+            let of_body = drift.iter().flat_map(|own| &own.values).filter_map(|list| list.get(body));
+            of_body.map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max)
+        })
+        .collect();
+    let of = |own: &BodyDrift| {
+        let pairs = own.values.iter().zip(&own.near).flat_map(|(one, other)| one.iter().zip(other).zip(&largest));
+        let shares = pairs.filter(|(_, largest)| **largest > 0.0);
+        shares.map(|((a, b), largest)| (a[0] - b[0]).hypot(a[1] - b[1]) / largest).fold(0.0, f64::max)
+    };
+    drift.iter().map(of).collect()
 }
 
 /// Frequency by frequency, over the largest force of all.

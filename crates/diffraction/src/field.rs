@@ -183,7 +183,7 @@ impl WaveSolution {
     }
 
     /// The damping of the patch of the surface at a place; 0 on the free surface.
-    fn damping_at(&self, at: [f64; 2]) -> f64 {
+    pub(crate) fn damping_at(&self, at: [f64; 2]) -> f64 {
         let (panels, damping) = self.mesh.patches();
         let images = self.mesh.mirrors().images();
         let holds = |panel: &Panel| {
@@ -289,20 +289,30 @@ impl WaveSolution {
         Some(made)
     }
 
-    /// The least horizontal distance (m) of the hulls from a surface; none where panels lie on both sides of it, or below it.
+    /// The least distance (m) of the hulls from a surface, on the plan or below it; none where panels lie on both sides of it.
     fn distance_to_hull(&self, surface: &ControlSurface) -> Option<f64> {
         let images = self.mesh.mirrors().images();
+        let depth = surface.size()[1];
         let mut least = f64::INFINITY;
         for panel in self.mesh.hull() {
             for image in &images {
                 let corners = panel.corners().map(|corner| mirrored(&corner, *image));
                 let beyond = corners.map(|at| surface.distance_beyond([at.x, at.y]));
-                let inside = beyond.iter().filter(|distance| **distance < 0.0).count();
-                let deepest = corners.iter().fold(0.0, |most: f64, at| most.max(-at.z));
-                if inside > 0 && (inside < corners.len() || deepest > surface.size()[1]) {
+                let below = corners.map(|at| -at.z - depth);
+                let is_beside = beyond.iter().all(|distance| *distance >= 0.0);
+                let is_below = below.iter().all(|distance| *distance >= 0.0);
+                let is_inside = beyond.iter().chain(&below).all(|distance| *distance <= 0.0);
+                if !(is_beside || is_below || is_inside) {
                     return None;
                 }
-                least = beyond.iter().fold(least, |least, distance| least.min(distance.abs()));
+                let nearest = |distances: [f64; 4]| distances.iter().fold(f64::INFINITY, |l, d| l.min(d.abs()));
+                let on_bottom =
+                    is_inside && self.wave.depth.is_some_and(|bottom| depth >= bottom * (1.0 - BOTTOM_ROOM));
+                least = match (is_inside, is_beside) {
+                    (true, _) if !on_bottom => least.min(nearest(beyond)).min(nearest(below)),
+                    (true, _) | (_, true) => least.min(nearest(beyond)),
+                    _ => least.min(nearest(below)),
+                };
             }
         }
         Some(least)
@@ -429,13 +439,13 @@ impl DiffractionProblem {
     }
 
     /// A control surface around one of the bodies, with sides along a heading (rad) and its opposite: at a distance of a quarter of its extent, or
-    /// half way to the nearest other body. None where another body is beside it within the rectangle of its waterline.
+    /// half way to the nearest other body, beside it or beneath its keel. None where another body is within the rectangle of its waterline and no deeper.
     pub fn control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
         self.box_and_gap(body, heading).map(|(made, _)| made)
     }
 
     /// As [`DiffractionProblem::control_box`], and where none fits along the heading, turned to where it is farthest from the hulls. None where a body is within the
-    /// rectangle of another in all directions, as one in a dock or one above another.
+    /// rectangle of another in all directions and no deeper, as one in a dock; the lower of two bodies one above the other has none.
     pub fn turned_control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
         let turned = || {
             let of = |step: usize| self.box_and_gap(body, heading + step as f64 * FRAC_PI_2 / BOX_DIRECTIONS as f64);
@@ -460,16 +470,27 @@ impl DiffractionProblem {
         let middle = limits.map(|[low, high]| 0.5 * (low + high));
         let half = limits.map(|[low, high]| 0.5 * (high - low));
         let mut gap = CONTROL_SHARE * half[0].max(half[1]).max(draught);
+        let mut under = f64::INFINITY;
         for other in (0..).map_while(|which| Some((which, corners(which)?))).filter(|(which, _)| *which != body) {
-            for at in &other.1 {
+            let beyond = |at: &Vector3<f64>| {
                 let [x, y] = axes(at);
-                let beyond = ((x - middle[0]).abs() - half[0]).max((y - middle[1]).abs() - half[1]);
-                gap = gap.min(0.5 * beyond);
+                ((x - middle[0]).abs() - half[0]).max((y - middle[1]).abs() - half[1])
+            };
+            let beside = other.1.iter().map(beyond).fold(f64::INFINITY, f64::min);
+            let below = other.1.iter().map(|at| -at.z - draught).fold(f64::INFINITY, f64::min);
+            // one that is beneath the keel is left out below
+            if beside <= 0.0 && below > 0.0 {
+                under = under.min(0.5 * below);
+            } else {
+                gap = gap.min(0.5 * beside);
             }
         }
         let centre = [middle[0] * cosine - middle[1] * sine, middle[0] * sine + middle[1] * cosine];
-        let depth = self.control_depth(draught + gap.max(CONTROL_SHARE * half[0].min(half[1])));
-        (gap > 0.0).then_some((ControlBox { centre, half: half.map(|half| half + gap), heading, depth }, gap))
+        let clearance = gap.max(CONTROL_SHARE * half[0].min(half[1])).min(under);
+        let depth = draught + clearance;
+        let depth = if under.is_finite() { depth } else { self.control_depth(depth) };
+        (gap > 0.0)
+            .then_some((ControlBox { centre, half: half.map(|half| half + gap), heading, depth }, gap.min(under)))
     }
 
     /// A depth of a control surface (m), on the bottom where that is near.

@@ -39,7 +39,9 @@ pub mod green;
 mod incident_wave;
 mod influence;
 mod lid;
+mod local_fit;
 mod mesh;
+mod near_field;
 mod panel;
 mod problem;
 mod quality;
@@ -53,6 +55,7 @@ pub use error::DiffractionError;
 pub use field::{ControlBox, ControlCylinder, ControlSurface, ControlSurfaceDrift};
 pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
+pub use near_field::NearFieldDrift;
 pub use panel::Panel;
 pub use problem::{
     DampedPatch, DiffractionBody, DiffractionProblem, ExcitationDifference, FrequencyForces, FrequencyLimit, MOTIONS,

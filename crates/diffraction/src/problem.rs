@@ -70,11 +70,19 @@ pub struct DiffractionProblem {
     velocities: Vec<Vec<f64>>,
     rankine: Vec<RankinePart>,
     motion_count: usize,
-    /// Of each body: its panels among those of the hulls.
-    bodies: Vec<Range<usize>>,
+    bodies: Arc<[BodyPart]>,
     /// Largest horizontal distance between points of the hulls and their images (m).
     reach: f64,
     draught: f64,
+}
+
+/// A body among those of a problem.
+#[derive(Clone, Debug)]
+pub(crate) struct BodyPart {
+    /// Its panels among those of the hulls.
+    pub panels: Range<usize>,
+    /// Where its motions and moments are taken (m).
+    pub origin: Vector3<f64>,
 }
 
 /// Frequencies at which waves are not sent out.
@@ -219,7 +227,7 @@ impl DiffractionProblem {
             .map(|body| {
                 let own = first..first + body.mesh.hull().len();
                 first = own.end;
-                own
+                BodyPart { panels: own, origin: body.origin }
             })
             .collect();
         Ok(DiffractionProblem {
@@ -262,7 +270,7 @@ impl DiffractionProblem {
 
     /// Corners of the panels of a body and of their images; none where there is no such body.
     pub(crate) fn body_corners(&self, body: usize) -> Option<Vec<Vector3<f64>>> {
-        let panels = self.mesh.hull().get(self.bodies.get(body)?.clone())?;
+        let panels = self.mesh.hull().get(self.bodies.get(body)?.panels.clone())?;
         let images = self.mesh.mirrors().images();
         let corners = || panels.iter().flat_map(|panel| panel.corners());
         Some(images.iter().flat_map(|image| corners().map(|corner| mirrored(corner, *image))).collect())
@@ -428,6 +436,7 @@ impl DiffractionProblem {
             wave,
             amplitude,
             mesh: Arc::clone(&self.mesh),
+            bodies: Arc::clone(&self.bodies),
             surface,
             headings: headings.to_vec(),
             water: self.water,

@@ -12,7 +12,7 @@
 
 use crate::incident_wave::IncidentWave;
 use crate::mesh::{HullMesh, SurfaceElement};
-use crate::problem::{FrequencyForces, Water};
+use crate::problem::{BodyPart, FrequencyForces, Water};
 use nalgebra::Complex;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -31,6 +31,7 @@ pub struct WaveSolution {
     /// Of the Green function far away (1/m).
     pub(crate) amplitude: f64,
     pub(crate) mesh: Arc<HullMesh>,
+    pub(crate) bodies: Arc<[BodyPart]>,
     pub(crate) surface: Vec<SurfaceElement>,
     pub(crate) headings: Vec<f64>,
     pub(crate) water: Water,

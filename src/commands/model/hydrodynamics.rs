@@ -182,7 +182,7 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
              radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
              FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. Mean drift is found with the motions that mass, stiffness, moorings and damping give the bodies now: of a body alone by the waves far away (G_MDRIFT finds it anew \
              after these have changed), of several by a control surface around each; where none fits around one of them it has what the drifts of the others leave of that of the waves far \
-             away, which is said. -MEAN_DRIFT NO leaves it out. Roll has the damping of radiated waves \
+             away, which is said. The report has how far the drift by the pressure on the hull is from it. -MEAN_DRIFT NO leaves it out. Roll has the damping of radiated waves \
              alone: #DAMP adds what eddies take. Exciting forces are those of Haskind's relation; the report has the panels of a wave length and the largest difference of the forces by pressure from \
              them, which measures the mesh. The drift of a body alone is checked by a control surface where it is largest; a difference above 5 % of the largest, of several bodies of \
              their sum from the waves far away, is warned of with the size of panels that would agree. What was computed is written beside the answers, BODY.nc in the layout of Capytaine, and is taken from there by a run with the same mesh, \
@@ -200,7 +200,7 @@ static MEAN_SPEC: CommandSpec = CommandSpec {
     options: &[HEADING, PERIOD, PANEL, WATER_DEPTH, LID, MD_TYPE, DIMENSIONS],
     detail: "Mean drift in surge, sway and yaw of a body that has a database of G_PRESSURE, by its panels where it stands and with the motions that its mass, \
              stiffness, moorings and damping give it now, drag at rest; it replaces the drift of the database. It is found by the waves far away, which \
-             solves use, and by a control surface around the body: the report has both and their difference, which measures the mesh. A body that is held \
+             solves use, by a control surface around the body and by the pressure on its hull: the report has all three and their differences, which measure the mesh; the pressure needs far smaller panels at sharp edges. A body that is held \
              (&DESCRIBE BODY -IGNORE of all its motions) has the drift of one that does not move. Panels, depth, headings and periods are those of \
              G_PRESSURE where none are given. -MD_TYPE and -DIMENSIONS of MOSES are read and have no effect.",
     example: "&DIMEN -DIMEN METERS K-NTS\n&ENV -DEPTH 100\nMEDIT\n&DESCRIBE BODY BARGE\n*CG 0 0 0\n#WEIGHT *CG 100552 12 26 26\n#DAMP *CG 0 0 0 2E5\n&SURFACE\n\

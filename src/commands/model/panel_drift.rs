@@ -2,8 +2,8 @@
 //! makes it anew.
 //!
 //! Of several bodies each has a control surface of its own; the one that none fits around, as a dock around a barge, has what the drifts of the others leave of that of
-//! the waves far away. The drift of a body alone is that of the waves far away [MARUO-1960] [NEWMAN-1967]; G_MDRIFT finds it by a control surface too, and shows
-//! how far both agree.
+//! the waves far away. The drift of a body alone is that of the waves far away [MARUO-1960]
+//! [NEWMAN-1967]; G_MDRIFT finds it by a control surface and by the pressure too, and shows how far all agree.
 
 use crate::commands::Job;
 use crate::commands::model::panel_forces::{MeshedBodies, MeshedBody, PanelRequest, progress_bar};
@@ -15,8 +15,7 @@ use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
-    ControlSurface, ControlSurfaceDrift, DiffractionError, DiffractionProblem, FarFieldDrift, FrequencyForces, MOTIONS,
-    WaveSolution,
+    ControlSurface, DiffractionError, DiffractionProblem, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution,
 };
 use windlass_hydro::database::DriftTable;
 use windlass_hydro::roll_damping::fix_critical_damping;
@@ -168,8 +167,9 @@ pub fn of_frequency(
     let Some(motions) = motions_in_waves(source, meshed, &waves.forces, headings)? else { return Ok(None) };
     let far: Vec<FarFieldDrift> =
         motions.iter().enumerate().map(|(heading, motions)| at_heading(waves, heading, motions)).collect();
+    let near = near_field(waves, &motions);
     if meshed.bodies.len() == 1 {
-        return Ok(Some(of_body_alone(&far)));
+        return Ok(Some(of_body_alone(&far, near)));
     }
     // force, and moment about the vertical through the origin of the group
     let mut sums = vec![[0.0; 3]; headings.len()];
@@ -205,7 +205,7 @@ pub fn of_frequency(
     let lever = meshed.bodies.iter().map(|body| body.origin.x.hypot(body.origin.y)).fold(0.0, f64::max);
     let over_lever = |[x, y, moment]: [f64; 3]| [x, y, if lever > 0.0 { moment / lever } else { 0.0 }];
     let sums = far.iter().zip(sums).map(|(far, sum)| [over_lever(sum), over_lever(of_far(far))]);
-    Ok(Some(BodyDrift { values, sums: if is_whole { sums.collect() } else { Vec::new() } }))
+    Ok(Some(BodyDrift { values, near, sums: if is_whole { sums.collect() } else { Vec::new() } }))
 }
 
 /// Where the drift of a body alone is largest: the number of the frequency, and the largest difference over all headings of the drift by the waves far away
@@ -247,9 +247,15 @@ pub fn motions_in_waves(
     }
 }
 
+/// Drift by the pressure on the hulls: heading by heading, then body by body.
+fn near_field(waves: &WaveSolution, motions: &[Vec<C>]) -> Vec<Vec<[f64; 3]>> {
+    let found = waves.near_field_drift(motions).unwrap_or_default();
+    found.iter().map(|of| of.iter().map(|own| [own.surge, own.sway, own.yaw]).collect()).collect()
+}
+
 /// The drift of a body alone, heading by heading.
-fn of_body_alone(far: &[FarFieldDrift]) -> BodyDrift {
-    BodyDrift { values: far.iter().map(|d| vec![[d.surge, d.sway, d.yaw]]).collect(), sums: Vec::new() }
+fn of_body_alone(far: &[FarFieldDrift], near: Vec<Vec<[f64; 3]>>) -> BodyDrift {
+    BodyDrift { values: far.iter().map(|d| vec![[d.surge, d.sway, d.yaw]]).collect(), near, sums: Vec::new() }
 }
 
 /// Takes away what rounding leaves of the drift of symmetric hulls.
@@ -452,12 +458,13 @@ fn by_heading(headings: &[f64], wanted: &[f64], drifts: &[BodyDrift]) -> Vec<Vec
 /// What G_MDRIFT shows of a frequency.
 struct DriftRow {
     period: f64,
-    /// Heading of the largest force (rad, where the waves come from), and the force there both ways (N/m2).
+    /// Heading of the largest force (rad, where the waves come from), and the force there: far away, by the control surface, by the pressure (N/m2).
     heading: f64,
     far: [f64; 2],
+    around: [f64; 2],
     near: [f64; 2],
-    /// Largest difference of the forces over all headings (N/m2).
-    difference: f64,
+    /// Largest difference of the forces over all headings from those far away: by the control surface, and by the pressure on the hull (N/m2).
+    differences: [f64; 2],
 }
 
 /// Computes the mean drift of a body and puts it into its database; the report of it is shown.
@@ -491,10 +498,12 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
         };
         let far: Vec<FarFieldDrift> =
             motions.iter().enumerate().map(|(heading, motions)| at_heading(&waves, heading, motions)).collect();
-        let near = waves.control_surface_drift(&motions, &surface);
-        let near = near.ok_or_else(|| wrong("no control surface fits around it".into()))?;
-        rows.extend(drift_row(*frequency, &request.headings, &far, &near));
-        drifts.push(of_body_alone(&far));
+        let around = waves.control_surface_drift(&motions, &surface);
+        let around = around.ok_or_else(|| wrong("no control surface fits around it".into()))?;
+        let around: Vec<[f64; 2]> = around.iter().map(|own| [own.surge, own.sway]).collect();
+        let drift = of_body_alone(&far, near_field(&waves, &motions));
+        rows.extend(drift_row(*frequency, &request.headings, &around, &drift));
+        drifts.push(drift);
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -510,7 +519,7 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
         method: Some(BY_FAR_FIELD.to_owned()),
     };
     let largest = rows.iter().map(|row: &DriftRow| row.far[0].hypot(row.far[1])).fold(0.0, f64::max);
-    let worst = rows.iter().map(|row| row.difference).fold(0.0, f64::max);
+    let worst = rows.iter().map(|row| row.differences[0]).fold(0.0, f64::max);
     if worst > POOR_AGREEMENT * largest {
         let text = format!(
             "far field and control surface differ by {:.1} % of the largest drift, more than {:.0} %: the panels are too large, -PANEL {:.2} would agree",
@@ -529,27 +538,27 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
     Ok(())
 }
 
-/// The row of a frequency; none without headings.
-fn drift_row(
-    frequency: f64,
-    headings: &[f64],
-    far: &[FarFieldDrift],
-    near: &[ControlSurfaceDrift],
-) -> Option<DriftRow> {
-    let all = || headings.iter().zip(far.iter().zip(near));
-    let size = |drift: &FarFieldDrift| drift.surge.hypot(drift.sway);
-    let largest = all().map(|at| size(at.1.0)).fold(0.0, f64::max);
+/// The row of a frequency; none without headings. `around` is the force by a control surface.
+fn drift_row(frequency: f64, headings: &[f64], around: &[[f64; 2]], drift: &BodyDrift) -> Option<DriftRow> {
+    let force = |list: &Vec<[f64; 3]>| list.first().map_or([0.0; 2], |[x, y, _]| [*x, *y]);
+    let [far, near] = [&drift.values, &drift.near].map(|of| of.iter().map(force).collect::<Vec<[f64; 2]>>());
+    let size = |[x, y]: &[f64; 2]| x.hypot(*y);
+    let largest = far.iter().map(size).fold(0.0, f64::max);
     // the first of equals, as of both sides of a hull
-    let (heading, (most, beside)) = all().find(|at| size(at.1.0) >= largest * (1.0 - ROUNDING_SHARE))?;
-    let clean = |force: [f64; 2]| force.map(|v| if v.abs() < ROUNDING_SHARE * largest { 0.0 } else { v });
+    let at = far.iter().position(|own| size(own) >= largest * (1.0 - ROUNDING_SHARE))?;
+    let clean = |of: &[[f64; 2]]| {
+        let force = of.get(at).copied().unwrap_or_default();
+        force.map(|v| if v.abs() < ROUNDING_SHARE * largest { 0.0 } else { v })
+    };
     let difference =
-        all().map(|(_, (far, near))| (far.surge - near.surge).hypot(far.sway - near.sway)).fold(0.0, f64::max);
+        |other: &[[f64; 2]]| far.iter().zip(other).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max);
     Some(DriftRow {
         period: TAU / frequency,
-        heading: (heading + 0.5 * TAU).rem_euclid(TAU),
-        far: clean([most.surge, most.sway]),
-        near: clean([beside.surge, beside.sway]),
-        difference,
+        heading: (headings.get(at)? + 0.5 * TAU).rem_euclid(TAU),
+        far: clean(&far),
+        around: clean(around),
+        near: clean(&near),
+        differences: [difference(around), difference(&near)],
     })
 }
 
@@ -557,22 +566,28 @@ fn report(name: &str, meshed: &MeshedBodies, source: &DriftSource, (rows, larges
     let force = Dim::Derived { force: 1, length: -2, seconds: 0 };
     let mut rows: Vec<&DriftRow> = rows.iter().collect();
     rows.reverse();
-    let share = |row: &DriftRow| if largest > 0.0 { 100.0 * row.difference / largest } else { 0.0 };
+    let share = |difference: f64| if largest > 0.0 { 100.0 * difference / largest } else { 0.0 };
     let mut table = Table::new(format!("Mean Drift by Panels of {name}"))
         .with_rows(&rows)
         .column("", "Period", Dim::Time, Digits::Decimals(2), |row| row.period)
         .column("", "Heading", Dim::Angle, Digits::Usual, |row| row.heading)
         .column("Far Field", "Far X", force, Digits::Scientific(4), |row| row.far[0])
         .column("Far Field", "Far Y", force, Digits::Scientific(4), |row| row.far[1])
-        .column("Control Surface", "Near X", force, Digits::Scientific(4), |row| row.near[0])
-        .column("Control Surface", "Near Y", force, Digits::Scientific(4), |row| row.near[1])
-        .column("", "Difference", Dim::None, Digits::Decimals(2), |row| share(row))
+        .column("Control Surface", "Surface X", force, Digits::Scientific(4), |row| row.around[0])
+        .column("Control Surface", "Surface Y", force, Digits::Scientific(4), |row| row.around[1])
+        .column("Near Field", "Near X", force, Digits::Scientific(4), |row| row.near[0])
+        .column("Near Field", "Near Y", force, Digits::Scientific(4), |row| row.near[1])
+        .column("Difference", "of Surface", Dim::None, Digits::Decimals(2), |row| share(row.differences[0]))
+        .column("Difference", "of Near Field", Dim::None, Digits::Decimals(2), |row| share(row.differences[1]))
         .build();
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
     table =
         table.fact("Motions", if matches!(source, DriftSource::Fixed) { "held" } else { "free, as moored" }, Dim::None);
     table.note("over the square of the wave amplitude, at the heading of the largest force, along the heading of the body; V_MDRIFT has every heading");
-    table.note("Difference: largest difference of both over all headings, per cent of the largest force; solves use the far field");
+    table.note(
+        "Near Field: by the pressure on the hull, which does not act: beside sharp edges the velocity has no bound, and it needs far smaller panels there than the others",
+    );
+    table.note("Difference: largest difference from the far field over all headings, per cent of the largest force; solves use the far field");
     if let DriftSource::Motions(linear) = source {
         // remarks are of motions without databases
         table.add_notes(linear.notes.iter().filter(|note| note.severity == Severity::Warning).cloned());

@@ -714,6 +714,8 @@ pub struct Quality {
     /// Largest difference of the sum of the drifts of several bodies from that by the waves far away, over the largest; of a body alone that of its drift
     /// by a control surface, not finite but where the drift is largest. None where there is no drift.
     drift: Option<Vec<f64>>,
+    /// Largest difference of the drift of a body by the pressure on its hull, over its largest; none where there is no drift.
+    near_field: Option<Vec<f64>>,
 }
 
 impl Quality {
@@ -726,6 +728,7 @@ impl Quality {
             energy: numbers("energy_difference")?,
             asymmetry: numbers("asymmetry")?,
             drift: numbers("drift_difference").ok(),
+            near_field: numbers("near_field_difference").ok(),
         })
     }
 }
@@ -833,28 +836,37 @@ fn ogilvie_figures(quality: &OgilvieQuality) -> String {
     format!("A(infinite) {limit}, frequencies {}", percent(quality.stray))
 }
 
+/// What the report of a period shows: shares in per cent.
+struct PeriodRow {
+    period: f64,
+    length: f64,
+    haskind: f64,
+    /// The motion whose exciting forces differ most.
+    worst: String,
+    products: usize,
+    drift: Option<f64>,
+    near_field: Option<f64>,
+}
+
 /// What was computed, a row a period.
 fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &[Database])) -> Table {
     let water = meshed.water;
     let at = |list: &[f64], i: usize| list.get(i).copied().unwrap_or(f64::NAN);
-    let rows: Vec<(f64, f64, f64, f64, usize, Option<f64>, String)> = meshed
+    let share =
+        |list: &Option<Vec<f64>>, i: usize| list.as_ref().map(|list| 100.0 * at(list, i)).filter(|off| off.is_finite());
+    let rows: Vec<PeriodRow> = meshed
         .frequencies
         .iter()
         .enumerate()
         .rev()
-        .map(|(i, frequency)| {
-            let length = wave_length(*frequency, water);
-            let sum = quality.drift.as_ref().map(|list| 100.0 * at(list, i)).filter(|off| off.is_finite());
-            let products = at(&quality.products, i) as usize;
-            (
-                TAU / frequency,
-                length,
-                length / meshed.size,
-                100.0 * at(&quality.haskind, i),
-                products,
-                sum,
-                quality.worst_motion(meshed, i),
-            )
+        .map(|(i, frequency)| PeriodRow {
+            period: TAU / frequency,
+            length: wave_length(*frequency, water),
+            haskind: 100.0 * at(&quality.haskind, i),
+            worst: quality.worst_motion(meshed, i),
+            products: at(&quality.products, i) as usize,
+            drift: share(&quality.drift, i),
+            near_field: share(&quality.near_field, i),
         })
         .collect();
     let planes = match (meshed.mirrors.x, meshed.mirrors.y) {
@@ -866,14 +878,18 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     let images = meshed.mirrors.images().len();
     let table = Table::new(format!("Pressures on {}", meshed.names()))
         .with_rows(&rows)
-        .column("", "Period", Dim::Time, Digits::Decimals(2), |row| row.0)
-        .column("", "Wave Length", Dim::Length, Digits::Decimals(2), |row| row.1)
-        .column("", "Panels a Wave", Dim::None, Digits::Decimals(1), |row| row.2)
-        .column("", "Haskind", Dim::None, Digits::Decimals(3), |row| row.3)
-        .text("In", |row| row.6.as_str())
-        .column("", "Products", Dim::None, Digits::Usual, |row| row.4);
+        .column("", "Period", Dim::Time, Digits::Decimals(2), |row| row.period)
+        .column("", "Wave Length", Dim::Length, Digits::Decimals(2), |row| row.length)
+        .column("", "Panels a Wave", Dim::None, Digits::Decimals(1), |row| row.length / meshed.size)
+        .column("", "Haskind", Dim::None, Digits::Decimals(3), |row| row.haskind)
+        .text("In", |row| row.worst.as_str())
+        .column("", "Products", Dim::None, Digits::Usual, |row| row.products);
     let table = match &quality.drift {
-        Some(_) => table.column("", "Drift", Dim::None, Digits::Decimals(2), |row| row.5),
+        Some(_) => table.column("", "Drift", Dim::None, Digits::Decimals(2), |row| row.drift),
+        None => table,
+    };
+    let table = match &quality.near_field {
+        Some(_) => table.column("", "Near Field", Dim::None, Digits::Decimals(2), |row| row.near_field),
         None => table,
     };
     let mut table = table.build();
@@ -927,6 +943,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
             1 => "Drift: difference of the mean drift by a control surface from that of the waves far away, which acts, per cent of the largest, at the period of that",
             _ => "Drift: largest difference of the sum of the bodies' drift in surge, sway and yaw (over the distance of the bodies) from that of the waves far away, per cent of the largest force",
         });
+    }
+    if quality.near_field.is_some() {
+        table.note("Near Field: largest difference of the drift of a body by the pressure on its hull from its drift, which acts, per cent of its largest force; beside sharp edges the velocity has no bound, and the pressure needs far smaller panels there");
     }
     table
 }
