@@ -97,6 +97,11 @@ pub(super) static REPORTS: &[ReportColumns] = &[
                 NONE,
                 "largest difference of mean drift by control surfaces from that of the waves far away, per cent of the largest; of a body alone where its drift is largest",
             ),
+            column(
+                "Near Field",
+                NONE,
+                "largest difference of the drift of a body by the pressure on its hull from its drift, which acts, per cent of its largest force",
+            ),
         ],
     },
     ReportColumns {
@@ -110,8 +115,14 @@ pub(super) static REPORTS: &[ReportColumns] = &[
                 &[derived(1, -2, 0)],
                 "force over the square of the wave amplitude, by the waves far away",
             ),
-            column("Control Surface: Near @", &[derived(1, -2, 0)], "the same by the control surface"),
-            column("Difference", NONE, "largest difference over all headings, per cent of the largest force"),
+            column("Control Surface: Surface @", &[derived(1, -2, 0)], "the same by the control surface"),
+            column("Near Field: Near @", &[derived(1, -2, 0)], "the same by the pressure on the hull"),
+            column(
+                "Difference: of Surface",
+                NONE,
+                "largest difference of the control surface from the far field over all headings, per cent of the largest force",
+            ),
+            column("Difference: of Near Field", NONE, "the same of the pressure on the hull"),
         ],
     },
     ReportColumns {

@@ -158,9 +158,7 @@ fn wave_drift_damping_of_hemisphere_is_derivative_of_exact_drift() {
 fn near_field_drift_of_hemisphere_meets_exact_series() {
     // 1,600 panels; 2 % of the largest drift of each column, 1.5 % where the free body moves most
     let problem = of_hemisphere(20, QUARTER);
-    for n in
-        rows(include_str!("../data/hemisphere.csv")).iter().filter(|n| [0.5, 1.0, 1.2, 1.4, 2.0, 3.0].contains(&n[0]))
-    {
+    for n in rows(include_str!("../data/hemisphere.csv")).iter().filter(|n| [0.5, 1.2, 2.0].contains(&n[0])) {
         let waves = problem.solve_waves((n[0] * WATER.gravity).sqrt(), &[0.0]).unwrap();
         let free = free_motions(&waves.forces, &free_hemisphere()).unwrap();
         for (motions, exact, largest) in [(vec![FIXED.to_vec()], n[9], 0.648), (free, n[10], 0.872)] {
@@ -189,9 +187,7 @@ fn near_field_drift_of_cylinders_meets_closed_form_and_matched_eigenfunctions() 
         let surge = drift(&standing, n[1]);
         assert!((surge - n[4]).abs() < 0.01 * 0.762, "k {}: {surge} for {}", n[0], n[4]);
     }
-    for n in
-        rows(include_str!("../data/truncated_cylinder.csv")).iter().filter(|n| [0.5, 1.5, 2.5, 4.0].contains(&n[0]))
-    {
+    for n in rows(include_str!("../data/truncated_cylinder.csv")).iter().filter(|n| [1.5, 4.0].contains(&n[0])) {
         let surge = drift(&floating, n[0]);
         assert!((surge - n[10]).abs() < 0.03 * 0.635, "nu {}: {surge} for {}", n[0], n[10]);
     }
@@ -212,7 +208,7 @@ fn near_field_drift_of_sphere_does_not_know_of_its_turning() {
     let problem = DiffractionProblem::new(&[DiffractionBody { mesh, origin }], WATER).unwrap();
     let heading = 0.7_f64;
     let turn = [Complex::new(0.4, -0.7), Complex::new(-0.6, 0.3), Complex::new(0.2, 0.5)];
-    for n in rows(include_str!("../data/hemisphere.csv")).iter().filter(|n| [0.9, 1.2, 2.0].contains(&n[0])) {
+    for n in rows(include_str!("../data/hemisphere.csv")).iter().filter(|n| n[0] == 1.2) {
         let omega = (n[0] * WATER.gravity).sqrt();
         let free = free_motions(&alone.solve(omega, &[heading]).unwrap(), &free_hemisphere()).unwrap();
         let phase = Complex::from_polar(1.0, n[0] * (middle.x * heading.cos() + middle.y * heading.sin()));
@@ -249,15 +245,14 @@ fn drift_of_body_above_another_is_that_of_pressure_on_its_hull() {
     let upper = problem.turned_control_box(0, 0.0).unwrap();
     assert!((upper.depth - 1.2).abs() < 1e-9 && problem.turned_control_box(1, 0.0).is_none(), "{upper:?}");
     let fixed = vec![vec![Complex::default(); 12]];
-    for k in [0.6, 1.2] {
-        let waves = problem.solve_waves((k * WATER.gravity).sqrt(), &[0.4]).unwrap();
-        let surface = waves.control_surface_drift(&fixed, &ControlSurface::Box(upper)).unwrap()[0];
-        let far = waves.far_field_drift(0, &fixed[0]).unwrap();
-        let [one, other] = [0, 1].map(|body| waves.near_field_drift(&fixed).unwrap()[0][body]);
-        let size = far.surge.hypot(far.sway);
-        let off = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) / size;
-        let rest = [far.surge - surface.surge, far.sway - surface.sway];
-        let found = [off([surface.surge, surface.sway], [one.surge, one.sway]), off(rest, [other.surge, other.sway])];
-        assert!(found.iter().all(|off| *off < 0.02), "K {k}: {found:?} {surface:?} {far:?} {one:?} {other:?}");
-    }
+    let k = 1.2_f64;
+    let waves = problem.solve_waves((k * WATER.gravity).sqrt(), &[0.4]).unwrap();
+    let surface = waves.control_surface_drift(&fixed, &ControlSurface::Box(upper)).unwrap()[0];
+    let far = waves.far_field_drift(0, &fixed[0]).unwrap();
+    let [one, other] = [0, 1].map(|body| waves.near_field_drift(&fixed).unwrap()[0][body]);
+    let size = far.surge.hypot(far.sway);
+    let off = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) / size;
+    let rest = [far.surge - surface.surge, far.sway - surface.sway];
+    let found = [off([surface.surge, surface.sway], [one.surge, one.sway]), off(rest, [other.surge, other.sway])];
+    assert!(found.iter().all(|off| *off < 0.02), "K {k}: {found:?} {surface:?} {far:?} {one:?} {other:?}");
 }
