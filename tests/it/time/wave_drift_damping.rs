@@ -202,9 +202,15 @@ fn current_along_regular_wave_adds_to_drift_at_rest_and_under_way() {
             let rest = Floating::at_rest(&model, &model.bodies["B"]).unwrap();
             let sea = Arc::new(Sea::new(&model, &model.environment).unwrap().unwrap());
             let under_way = Floating::under_way(&model, &model.bodies["B"], Some(&sea)).unwrap();
-            let is_drift = |load: &&Box<dyn windlass_hydro::BodyLoad>| load.category() == Category::WaveDrift;
-            let mean = rest.loads.iter().find(is_drift).unwrap().mean_load(&pose).unwrap().wrench;
-            let load = under_way.loads.iter().find(is_drift).unwrap();
+            let mean = rest
+                .loads
+                .iter()
+                .find(|load| load.category() == Category::WaveDrift)
+                .unwrap()
+                .mean_load(&pose)
+                .unwrap()
+                .wrench;
+            let load = under_way.loads.iter().find(|load| load.category() == Category::WaveDrift).unwrap();
             let at = BodyStep { time: 200.0, dt: 0.1, pose: &pose, velocity: &Six::zeros() };
             let state = begin_step(load.as_ref(), &at);
             let slow = load.dynamic_load(&at, &state).unwrap().load.wrench;
