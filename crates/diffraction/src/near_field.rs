@@ -111,19 +111,11 @@ impl WaveSolution {
         moving: &RigidMotion,
     ) -> Option<[[C; 3]; 2]> {
         let forces = &self.forces;
-        let omega = forces.frequency;
         let excitation = forces.excitation.get(heading)?;
         let mut made = [[C::default(); 3]; 2];
         for (axis, value) in made.iter_mut().flatten().enumerate() {
-            let row = MOTIONS * body + axis;
-            let radiated: C = motions
-                .iter()
-                .enumerate()
-                .map(|(j, motion)| {
-                    motion * C::new(omega * omega * forces.added_mass[(row, j)], omega * forces.damping[(row, j)])
-                })
-                .sum();
-            *value = excitation.get(row)? + radiated;
+            let direction = MOTIONS * body + axis;
+            *value = excitation.get(direction)? + forces.radiation_force(direction, motions);
         }
         // of the water at rest: in the force the horizontal parts of the pressure and of the turn of the force of rest cancel
         let weight = -self.water.density * self.water.gravity;

@@ -124,6 +124,16 @@ pub struct ExcitationDifference {
 }
 
 impl FrequencyForces {
+    /// The force of the radiated waves in one direction by the motions of all bodies (N, N m for motions in waves of amplitude 1 m).
+    pub(crate) fn radiation_force(&self, direction: usize, motions: &[C]) -> C {
+        let omega = self.frequency;
+        let by_motion = |(motion, other): (usize, &C)| {
+            let (added_mass, damping) = (self.added_mass[(direction, motion)], self.damping[(direction, motion)]);
+            other * C::new(omega * omega * added_mass, omega * damping)
+        };
+        motions.iter().enumerate().map(by_motion).sum()
+    }
+
     /// The motion whose exciting forces by pressure and by Haskind's relation differ most, over the largest of that motion at all headings. A motion whose forces are
     /// less than a twentieth of the largest of its kind (forces or moments) on its body, as one that symmetry leaves without any, is measured by that
     /// twentieth. It measures the mesh; none where there are no headings.

@@ -180,13 +180,7 @@ impl WaveSolution {
         let excitation = forces.excitation.get(heading)?;
         let omega = forces.frequency;
         let power = motions.iter().zip(excitation).enumerate().map(|(i, (motion, excitation))| {
-            let radiation: C = motions
-                .iter()
-                .enumerate()
-                .map(|(j, other)| {
-                    other * C::new(omega * omega * forces.added_mass[(i, j)], omega * forces.damping[(i, j)])
-                })
-                .sum();
+            let radiation = forces.radiation_force(i, motions);
             0.5 * ((C::new(0.0, -omega) * motion).conj() * (excitation + radiation)).re
         });
         Some(power.sum())

@@ -478,7 +478,9 @@ fn least_fitting_size(
     // panels go as the inverse square of their size where that divides all, memory as the square of panels
     let by_memory = (refused.bytes() / (available as f64).max(1.0)).powf(0.25);
     let by_count = (refused.panels / MAX_PANELS as f64).sqrt();
-    let (mut low, mut high) = (size, size * by_memory.max(by_count).max(1.0));
+    let first = size * by_memory.max(by_count).max(1.0);
+    // smaller ones are more than fit: they are not meshed
+    let (mut low, mut high) = (first / SIZE_GROWTH, first);
     let mut tries = 0;
     while !fits(rounded_up(high)) {
         tries += 1;
