@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use netcdf3::{DataSet, FileWriter, Version};
 use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
 use windlass_hydro::database::capytaine::DRIFT_METHOD;
+use windlass_model::PanelSizes;
 
 /// Names of the motions, as Capytaine has them.
 const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
@@ -54,7 +55,7 @@ pub struct PressureFile<'a> {
     /// The water.
     pub water: Water,
     /// Size of the panels (m).
-    pub panel_size: f64,
+    pub panel_sizes: PanelSizes,
     /// Where the waves go to (rad).
     pub headings: &'a [f64],
     /// Frequency by frequency.
@@ -201,12 +202,14 @@ impl PressureFile<'_> {
             }
             Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
         }
+        let edge_size = self.panel_sizes.largest * self.panel_sizes.edge_share;
         for (name, unit, text, value) in [
             ("rho", "kg/m3", "density", self.water.density),
             ("g", "m/s2", "gravity", self.water.gravity),
             ("water_depth", "m", "depth; infinity is deep water", self.water.depth.unwrap_or(f64::INFINITY)),
             ("forward_speed", "m/s", "forward speed", 0.0),
-            ("panel_size", "m", "size of the panels", self.panel_size),
+            ("panel_size", "m", "size of the panels", self.panel_sizes.largest),
+            ("edge_panel_size", "m", "size of the panels at sharp edges and at the waterline", edge_size),
         ] {
             made.numbers(name, &[], unit, text, vec![value])?;
         }

@@ -2,15 +2,15 @@
 
 use crate::buoyancy::skin;
 use crate::hull::{Combination, Surface, pair_triangles};
+use crate::panel_cells::cells;
+use crate::sharp_edges::{edge_at, sharp_edges};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass_base::pose::Pose;
-use windlass_model::{Body, ClassError, Model, Part, Piece, Shape, WaveAction};
+use windlass_model::{Body, ClassError, Model, PanelSizes, Part, Piece, Shape, WaveAction};
 
 /// A polygon of a face, counter-clockwise as seen from the water.
-type Polygon = Vec<Vector3<f64>>;
+pub(crate) type Polygon = Vec<Vector3<f64>>;
 
-/// Corners of a panel whose area is less than this share of the square of the size are on a line.
-const FLAT_SHARE: f64 = 1e-10;
 /// Halves whose moments agree to this share are mirror images.
 const MIRROR_SHARE: f64 = 1e-7;
 /// Nearer to a plane than this share of the hull a corner lies in it.
@@ -21,6 +21,8 @@ const PLANE_SHARE: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub struct WettedHull {
     polygons: Vec<Polygon>,
+    /// Of each side of each polygon, whether panels are refined toward it: sharp edges that stick out into the water, and the waterline.
+    refined: Vec<Vec<bool>>,
     /// From these axes to those of the body.
     pub axes: Matrix3<f64>,
     /// Height of the body's origin over the water level (m).
@@ -183,30 +185,29 @@ impl WettedHull {
         self.polygons.len()
     }
 
-    /// Quadrilaterals with sides of about a size (m) at most, a triangle repeating a corner: of the part at positive coordinates where
-    /// mirror planes are used.
-    pub fn panels(&self, size: f64, mirrors: [bool; 2]) -> Vec<[Vector3<f64>; 4]> {
+    /// Quadrilaterals of a size at most, a triangle repeating a corner: of the part at positive coordinates where mirror planes are used.
+    pub fn panels(&self, sizes: PanelSizes, mirrors: [bool; 2]) -> Vec<[Vector3<f64>; 4]> {
         let extent = self.polygons.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
         let room = PLANE_SHARE * extent;
         let mut made = Vec::new();
-        for polygon in &self.polygons {
+        for (polygon, refined) in self.polygons.iter().zip(&self.refined) {
             let mut part = polygon.clone();
             for (axis, used) in mirrors.into_iter().enumerate() {
                 if used {
                     part = below(&part, |p| -p[axis], room);
                 }
             }
-            match part.as_slice() {
-                [a, b, c, d] => quadrilateral([*a, *b, *c, *d], size, &mut made),
-                [first, rest @ ..] => {
-                    for pair in rest.windows(2) {
-                        if let [b, c] = pair {
-                            triangle([*first, *b, *c], size, &mut made);
-                        }
-                    }
-                }
-                [] => {}
-            }
+            // a side along a mirror plane is none of the face's, unless the face ends there
+            let next = part.iter().cycle().skip(1);
+            let refined: Vec<bool> = part
+                .iter()
+                .zip(next)
+                .map(|(a, b)| {
+                    let side = edge_at(polygon, &((a + b) * 0.5), 2.0 * room);
+                    side.and_then(|side| refined.get(side)).copied().unwrap_or_default()
+                })
+                .collect();
+            cells(&part, &refined, sizes, &mut made);
         }
         made
     }
@@ -239,8 +240,9 @@ impl FacedHull {
             // the divergence of (0, 0, z), which vanishes in the water plane
             volume += integral_of_height(polygon, &normal);
         }
+        let refined = sharp_edges(&polygons, room);
         let (axes, has_own_panels) = (tilt.transpose(), self.has_own_panels);
-        WettedHull { polygons, axes, origin_height, mirrors, area, volume, pieces: Vec::new(), has_own_panels }
+        WettedHull { polygons, refined, axes, origin_height, mirrors, area, volume, pieces: Vec::new(), has_own_panels }
     }
 }
 
@@ -288,7 +290,7 @@ fn below(polygon: &[Vector3<f64>], measure: impl Fn(&Vector3<f64>) -> f64, room:
 }
 
 /// Area times the normal of a plane polygon (m2).
-fn area_vector(polygon: &[Vector3<f64>]) -> Vector3<f64> {
+pub(crate) fn area_vector(polygon: &[Vector3<f64>]) -> Vector3<f64> {
     let Some((first, rest)) = polygon.split_first() else { return Vector3::zeros() };
     rest.windows(2)
         .map(|pair| if let [b, c] = pair { (b - first).cross(&(c - first)) * 0.5 } else { Vector3::zeros() })
@@ -351,50 +353,6 @@ fn is_mirrored(polygons: &[Polygon], axis: usize, room: f64) -> bool {
         .all(|((a, b), degree)| (a - b).abs() <= MIRROR_SHARE * area * extent.powi(degree))
 }
 
-/// Cells of a convex quadrilateral.
-fn quadrilateral([a, b, c, d]: [Vector3<f64>; 4], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
-    let parts = |p: f64, q: f64| (p.max(q) / size - 1e-9).ceil().max(1.0) as usize;
-    let (columns, rows) = (parts((b - a).norm(), (c - d).norm()), parts((d - a).norm(), (c - b).norm()));
-    let at = |i: usize, j: usize| {
-        let (u, v) = (i as f64 / columns as f64, j as f64 / rows as f64);
-        (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
-    };
-    for j in 0..rows {
-        for i in 0..columns {
-            push([at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)], size, made);
-        }
-    }
-}
-
-/// Parts of a triangle, halved across its longest edge until that is the diagonal of a square of the size.
-fn triangle(corners: [Vector3<f64>; 3], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
-    let mut open = vec![corners];
-    while let Some([a, b, c]) = open.pop() {
-        let edges = [(a - b).norm(), (b - c).norm(), (c - a).norm()];
-        let turned = if edges[0] >= edges[1] && edges[0] >= edges[2] {
-            [a, b, c]
-        } else if edges[1] >= edges[2] {
-            [b, c, a]
-        } else {
-            [c, a, b]
-        };
-        let [p, q, r] = turned;
-        if (p - q).norm() <= size * std::f64::consts::SQRT_2 {
-            push([p, q, r, r], size, made);
-        } else {
-            let middle = (p + q) * 0.5;
-            open.extend([[p, middle, r], [middle, q, r]]);
-        }
-    }
-}
-
-fn push(panel: [Vector3<f64>; 4], size: f64, made: &mut Vec<[Vector3<f64>; 4]>) {
-    let [a, b, c, d] = panel;
-    if (c - a).cross(&(d - b)).norm() > FLAT_SHARE * size * size {
-        made.push(panel);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -411,10 +369,10 @@ mod tests {
         let hull = box_hull([-20.0, -5.0, 0.0], [20.0, 5.0, 8.0], [0.0, 0.0, -3.0]);
         assert!((hull.volume - 1200.0).abs() < 1e-9 && (hull.area - (400.0 + 2.0 * 3.0 * 50.0)).abs() < 1e-9);
         assert_eq!(hull.mirrors, [true, true]);
-        let panels = hull.panels(2.5, [false, false]);
+        let panels = hull.panels(PanelSizes::equal(2.5), [false, false]);
         // bottom 16 x 4, sides 16 x 2 and 4 x 2 twice each
         assert_eq!(panels.len(), 64 + 2 * (32 + 8));
-        let quarter = hull.panels(2.5, [true, true]);
+        let quarter = hull.panels(PanelSizes::equal(2.5), [true, true]);
         assert_eq!(quarter.len() * 4, panels.len());
         assert!(quarter.iter().flatten().all(|p| p.x > -1e-9 && p.y > -1e-9 && p.z < 1e-9));
         let area: f64 = quarter.iter().map(|[a, b, c, d]| 0.5 * (c - a).cross(&(d - b)).norm()).sum();

@@ -62,10 +62,26 @@ pub struct Database {
     pub interactions: Vec<Interaction>,
     /// Rectangles of damped surface that it was computed with here: x and y of two corners from the first body of its source, along its heading (m), and the damping.
     pub lids: Vec<[f64; 5]>,
-    /// Size of the panels that it was computed with here (m); none of a source that was read.
-    pub panel_size: Option<f64>,
+    /// Sizes of the panels that it was computed with here; none of a source that was read.
+    pub panels: Option<PanelSizes>,
     /// What the reader noticed: asymmetry, negative damping, gaps.
     pub remarks: Vec<String>,
+}
+
+/// How large panels are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PanelSizes {
+    /// Length of their sides at most (m).
+    pub largest: f64,
+    /// The same at the edges toward which they are refined, over `largest`: 1 leaves all of one size.
+    pub edge_share: f64,
+}
+
+impl PanelSizes {
+    /// All of one size (m).
+    pub fn equal(size: f64) -> Self {
+        PanelSizes { largest: size, edge_share: 1.0 }
+    }
 }
 
 /// Forces on a body, about the reference point of its database and in its axes, by motions of another body, of the reference point of that

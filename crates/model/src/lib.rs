@@ -64,7 +64,7 @@ pub use compartment::{Compartment, FreeSurface, Hole, HoleKind, TankContents};
 pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{
-    Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, Qtf,
+    Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, PanelSizes, Qtf,
 };
 pub use defaults::{Coordinates, DefaultMaterial, Defaults, RopeStiffness, WaveDefaults};
 pub use draft_mark::DraftMark;

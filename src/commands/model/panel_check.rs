@@ -55,6 +55,7 @@ pub fn check(
         headings: request.headings.clone(),
         periods: meshed.frequencies.iter().map(|w| TAU / w).collect(),
         size: Some(FINER * meshed.size),
+        edge_share: meshed.edge_share,
         depth: request.depth,
         lids: request.lids.clone(),
         has_drift: request.has_drift,

@@ -27,7 +27,7 @@ use windlass_hydro::database::radiation::{OgilvieQuality, Radiation};
 use windlass_hydro::database::{DatabaseError, capytaine};
 use windlass_hydro::wetted_hull::WettedHull;
 use windlass_language::source::LARGEST_FILE;
-use windlass_model::{AttachedDatabase, Body, Database, DriftMethod, Model, WaveAction};
+use windlass_model::{AttachedDatabase, Body, Database, DriftMethod, Model, PanelSizes, WaveAction};
 
 /// Panels of the whole hull where no size is given.
 const USUAL_PANELS: f64 = 1000.0;
@@ -72,6 +72,8 @@ pub struct PanelRequest {
     pub periods: Vec<f64>,
     /// Size of the panels (m); none chooses it by the hulls.
     pub size: Option<f64>,
+    /// Size of the panels at sharp edges and at the waterline over that of the others.
+    pub edge_share: f64,
     /// Depth (m) instead of that of the environment.
     pub depth: Option<f64>,
     /// Rectangles of damped surface: x and y of two corners in axes of the group (m), and the damping.
@@ -116,6 +118,8 @@ pub struct MeshedBodies {
     pub place: [f64; 2],
     /// Size of the panels (m).
     pub size: f64,
+    /// Size of the panels at sharp edges and at the waterline over that of the others.
+    pub edge_share: f64,
     /// Frequencies, growing (rad/s).
     pub frequencies: Vec<f64>,
     /// The water.
@@ -208,7 +212,10 @@ impl MeshedBodies {
         let expected = hulls.iter().map(|(_, _, hull)| least(hull)).sum::<f64>() / images;
         let refused = |problem: &ProblemSize, hulls: &[&WettedHull]| {
             let text = format!("{}: {}", names.join(", "), problem.sentence(available));
-            let at_size = |size: f64| ProblemSize::of_panels(hulls, &request.lids, mirrors, size);
+            let at_size = |size: f64| {
+                let sizes = PanelSizes { largest: size, edge_share: request.edge_share };
+                ProblemSize::of_panels(hulls, &request.lids, mirrors, sizes)
+            };
             let fitting = least_fitting_size(size, problem, available, at_size);
             let lids = if problem.of_patches > 0.0 { "smaller rectangles of -LID" } else { "smaller hulls" };
             wrong(text).help(match fitting {
@@ -231,8 +238,8 @@ impl MeshedBodies {
             let turn = body.position.turn[2] - heading;
             let [x, y] = if alone { [0.0; 2] } else { shift_of(body) };
             let shift = Vector3::new(x, y, 0.0);
-            // of panels larger than the hull one a face is left
-            let quads = hull.panels(of_hull(&hull).min(hull.longest_side()), [mirrors.x, mirrors.y]);
+            let sizes = sizes_on(&hull, of_hull(&hull), request.edge_share);
+            let quads = hull.panels(sizes, [mirrors.x, mirrors.y]);
             let plain = HullMesh::new(&quads, mirrors).map_err(open)?;
             // strips of the lid lie along the body
             let (mesh, has_lid) = plain.with_lid().map_or((plain, false), |mesh| (mesh, true));
@@ -261,7 +268,8 @@ impl MeshedBodies {
         }
         let frequencies = choose_frequencies(names, request, size, water)?;
         let lids = request.lids.clone();
-        Ok(MeshedBodies { bodies, heading, place, size, frequencies, water, lids, mirrors, parts, patches })
+        let edge_share = request.edge_share;
+        Ok(MeshedBodies { bodies, heading, place, size, edge_share, frequencies, water, lids, mirrors, parts, patches })
     }
 
     /// The problem of the bodies.
@@ -295,10 +303,10 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 4));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 5));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
-        add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size].into_iter());
+        add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size, self.edge_share].into_iter());
         add(&mut self.frequencies.iter().chain(headings).copied());
         add(&mut [
             self.frequencies.len() as f64,
@@ -342,10 +350,16 @@ impl MeshedBodies {
         let source = if alone { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
         let of = |i: usize| {
             let data = capytaine::read(&source, bytes, (!alone).then_some(i + 1)).map_err(|error| error.to_string())?;
-            Ok(Database { panel_size: Some(self.size), ..data })
+            Ok(Database { panels: Some(PanelSizes { largest: self.size, edge_share: self.edge_share }), ..data })
         };
         (0..self.bodies.len()).map(of).collect()
     }
+}
+
+/// The sizes of panels on a hull: own panels are not refined, and of panels larger than the hull one a face is left.
+fn sizes_on(hull: &WettedHull, size: f64, edge_share: f64) -> PanelSizes {
+    let largest = size.min(hull.longest_side());
+    PanelSizes { largest, edge_share: if hull.has_own_panels { 1.0 } else { edge_share } }
 }
 
 /// Whether all rectangles of damped surface are the same on both sides of a plane.
@@ -424,13 +438,18 @@ struct ProblemSize {
 }
 
 impl ProblemSize {
-    /// That of hulls and given lids in panels of a size (m); none where the panels make no mesh.
-    fn of_panels(hulls: &[&WettedHull], lids: &[[f64; 5]], mirrors: MirrorPlanes, size: f64) -> Option<Self> {
+    /// That of hulls and given lids in panels of sizes; none where the panels make no mesh.
+    fn of_panels(
+        hulls: &[&WettedHull],
+        lids: &[[f64; 5]],
+        mirrors: MirrorPlanes,
+        PanelSizes { largest: size, edge_share }: PanelSizes,
+    ) -> Option<Self> {
         let of_patches: f64 =
             lids.iter().filter_map(|lid| LidPart::new(lid, size, mirrors)).map(|part| part.panels()).sum();
         let (mut of_hulls, mut of_lids) = (0.0, of_patches);
         for hull in hulls {
-            let quads = hull.panels(size.min(hull.longest_side()), [mirrors.x, mirrors.y]);
+            let quads = hull.panels(sizes_on(hull, size, edge_share), [mirrors.x, mirrors.y]);
             let plain = HullMesh::new(&quads, mirrors).ok()?;
             of_hulls += plain.hull().len() as f64;
             of_lids += plain.with_lid().map_or(0.0, |mesh| mesh.lid().len() as f64);
@@ -687,7 +706,7 @@ fn solve(
     let file = PressureFile {
         bodies: &bodies,
         water: meshed.water,
-        panel_size: meshed.size,
+        panel_sizes: PanelSizes { largest: meshed.size, edge_share: meshed.edge_share },
         headings: &request.headings,
         forces: &made,
         energy: &energy,
@@ -928,6 +947,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     }
     table = table.fact("Symmetry", planes, Dim::None);
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
+    table = table.fact("Panels at Edges", meshed.size * meshed.edge_share, Dim::Length);
     table = match water.depth {
         Some(depth) => table.fact("Depth", depth, Dim::Length),
         None => table.fact("Depth", "deep water", Dim::None),
@@ -978,6 +998,7 @@ mod tests {
             headings: vec![0.0],
             periods: vec![8.0],
             size: Some(2.0),
+            edge_share: 1.0,
             depth: None,
             lids: Vec::new(),
             has_drift: false,

@@ -2,7 +2,7 @@
 //! motions that it gives them.
 
 use crate::commands::menu;
-use crate::commands::model::hydrodynamics::{LID, lids_of, toward};
+use crate::commands::model::hydrodynamics::{EDGE_SHARE, LID, USUAL_EDGE_SHARE, lids_of, toward};
 use crate::commands::model::panel_drift::{self, DriftSource};
 use crate::commands::model::panel_forces::{MeshedBodies, PanelRequest, wave_length};
 use crate::commands::{Call, Command, Effect, Job};
@@ -118,7 +118,9 @@ static SPEC: CommandSpec = CommandSpec {
     owner: windlass_language::select::Owner::Ours,
     menus: &[&menu::HYDRODYNAMICS],
     data: &[ValueSpec::new("BODY", Kind::Name(Noun::Body), "the body")],
-    options: &[PERIOD, HEADING, WITH, LID, PHASE, HELD, AMPLITUDE, AROUND, POINTS, PANEL, DEPTH, FILE, PIXELS],
+    options: &[
+        PERIOD, HEADING, WITH, LID, PHASE, HELD, AMPLITUDE, AROUND, POINTS, PANEL, EDGE_SHARE, DEPTH, FILE, PIXELS,
+    ],
     detail: "Draws what a regular wave of unit amplitude does at bodies, by their panels where they stand, with the motions that it gives them: in plan the \
              elevation of the water around them, by colours with lines between them, and below the pressure on the panels of their hulls, seen \
              from below and from both sides along the wave. Values are over the amplitude, pressures over density, gravity and amplitude. Without -PHASE they are the \
@@ -163,10 +165,15 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
         };
         names.sort_by_key(place);
     }
+    let panels = data.as_ref().and_then(|data| data.panels);
     let request = PanelRequest {
         headings: toward(vec![args.option_number(&HEADING).unwrap_or(PI)]),
         periods: vec![period],
-        size: args.option_number(&PANEL).or_else(|| data.as_ref().and_then(|data| data.panel_size)),
+        size: args.option_number(&PANEL).or(panels.map(|panels| panels.largest)),
+        edge_share: args
+            .option_number(&EDGE_SHARE)
+            .or(panels.map(|panels| panels.edge_share))
+            .unwrap_or(USUAL_EDGE_SHARE),
         depth: args.option_number(&DEPTH).or_else(|| data.as_ref().and_then(|data| data.depth)),
         lids,
         has_drift: true,
