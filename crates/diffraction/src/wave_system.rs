@@ -399,13 +399,16 @@ fn rankine_tiles(part: &RankinePart, [count, hull]: [usize; 2], lid_factor: f32,
     let [first, second] = blocks.map(|block| block_range(block, count));
     let tile = |rows: &Range<usize>, columns: &Range<usize>| {
         let mut tile = Vec::with_capacity(rows.len() * columns.len());
+        let on_hull = hull.clamp(columns.start, columns.end);
         for i in rows.clone() {
             let row = &part.double_layer[i * count..(i + 1) * count];
-            tile.extend(columns.clone().map(|j| {
-                let factor = if j < hull { 1.0 } else { lid_factor };
+            tile.extend(row[columns.start..on_hull].iter().map(|value| Complex::from(*value)));
+            tile.extend(row[on_hull..columns.end].iter().map(|value| Complex::from(value * lid_factor)));
+            if columns.contains(&i) {
                 let own = if i < hull { 2.0 * std::f32::consts::PI } else { 4.0 * std::f32::consts::PI };
-                Complex::new(row[j] * factor + if i == j { own } else { 0.0 }, 0.0)
-            }));
+                let at = tile.len() - columns.len() + i - columns.start;
+                tile[at].re += own;
+            }
         }
         tile
     };
