@@ -28,6 +28,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+pub mod beyond_database;
 pub mod drift_damping;
 mod equilibrium;
 pub mod excursion;

@@ -224,17 +224,14 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let drift_damping = args.option_number(&DD_MULT);
     let made =
         AttachedDatabase { data: Arc::new(data), at, memory, drift, drift_damping, hydrostatics, span: args.span };
-    attach(job, &name, made, source)?;
+    attach(job, &name, made, source);
     Ok(Effect::Done)
 }
 
 /// Gives a body a database, and warns of what looks wrong with it.
-///
-/// # Errors
-/// Radiation that makes no memory.
-pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: Span) -> Outcome<()> {
+pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: Span) {
     let key = Model::key(body);
-    let Some(name) = job.model.bodies.get(&key).map(|b| b.name.clone()) else { return Ok(()) };
+    let Some(name) = job.model.bodies.get(&key).map(|b| b.name.clone()) else { return };
     let mass = job
         .model
         .bodies
@@ -242,11 +239,12 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         .map_or(0.0, |b| Mass::from_parts(job.model.parts_of(b), job.model.defaults.gravity).mass);
     let data = &made.data;
     let radiation = windlass_hydro::database::radiation::Radiation::new(data);
-    let radiation = radiation.map_err(|e| Diagnostic::error(e.to_string(), source))?;
     for text in &data.remarks {
         job.warn(format!("{}: {text}", data.source), source);
     }
-    if let Some(radiation) = radiation {
+    if radiation.as_ref().is_some_and(|radiation| radiation.has_one_frequency) {
+        job.remark(format!("{}: one frequency serves motions at it; runs in time need more", data.source), source);
+    } else if let Some(radiation) = radiation {
         let (text, is_warning) = radiation.quality.sentence();
         let text = format!("{}: {text}", data.source);
         match (is_warning, data.infinite) {
@@ -275,7 +273,6 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
     for text in caveats {
         job.warn(text, source);
     }
-    Ok(())
 }
 
 /// The sign that a database belongs to a body of another size, where its source does not say the mass it was computed for: added

@@ -658,7 +658,8 @@ fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
         hydrostatics: false,
         span: data.span,
     };
-    database::attach(job, &data.body, attached, data.span)
+    database::attach(job, &data.body, attached, data.span);
+    Ok(())
 }
 
 /// A body that has a database.

@@ -608,7 +608,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
             hydrostatics: false,
             span,
         };
-        database::attach(job, &body.name, attached, span)?;
+        database::attach(job, &body.name, attached, span);
         settle_pressure(&mut job.model, &body.name);
     }
     warn_of_quality(job, &meshed, &quality, span);
@@ -933,7 +933,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         table = table.fact(&fact("Lid of the Waterplane"), lid, Dim::None);
         table = table.fact(&fact("Displaced Volume"), body.hull.volume, Dim::Volume);
         table = table.fact(&fact("By the Panels"), body.volume, Dim::Volume);
-        if let Ok(Some(radiation)) = Radiation::new(data) {
+        if let Some(radiation) = Radiation::new(data) {
             table = table.fact(&fact("Ogilvie's Relation"), ogilvie_figures(&radiation.quality), Dim::None);
         }
     }

@@ -15,12 +15,13 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
 use windlass_base::span::Span;
-use windlass_base::table::Table;
+use windlass_base::table::{Table, TableNote};
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{Environment, Model, find};
+use windlass_solve::beyond_database::{warnings_of_frequencies, warnings_of_sea};
 use windlass_solve::frequency::{
     ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, respond,
 };
@@ -236,6 +237,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Dim::None,
     );
     table.add_notes(linear.notes.iter().cloned());
+    table.add_notes(warnings_of_frequencies(&job.model, &periods).into_iter().map(TableNote::warning));
     let [shift, turn] = largest_operators(&linear, &made, job.units);
     let what = format!("{} and {}", count(periods.len(), "period"), count(headings.len(), "heading"));
     let summary = SolveSummary::new(format!("RAO: motions in unit waves of {what}"))
@@ -298,6 +300,8 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.add_notes(linear.notes.iter().cloned());
+    let of_sea = warnings_of_sea(&model).map_err(|e| e.diagnostic(args.span, job.units))?;
+    table.add_notes(of_sea.into_iter().map(TableNote::warning));
     let extreme = probability::extreme(&model);
     let kind = extreme.unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
     let both = (&linear, &made);

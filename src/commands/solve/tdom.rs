@@ -25,6 +25,7 @@ use windlass_hydro::morison::pieces_without_wave_load;
 use windlass_language::select::Owner;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::Model;
+use windlass_solve::beyond_database::warnings_of_sea;
 use windlass_solve::drift_damping::{body_drift_dampings, drift_damping_table};
 use windlass_solve::results::{fender_peaks, fender_table};
 use windlass_solve::screening::{self, Screening};
@@ -483,7 +484,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let mut going = RunProgress::new(job, &made, log);
     let dampings = body_drift_dampings(&made.model).map_err(|e| e.diagnostic(span, job.units))?;
     let of_damping = dampings.iter().flat_map(|body| body.warnings.iter().cloned());
-    let of_drift = slow_checks::warnings_of_slow_drift(&made).into_iter().chain(of_damping);
+    let of_sea = warnings_of_sea(&made.model).map_err(|e| e.diagnostic(span, job.units))?;
+    let of_drift = slow_checks::warnings_of_slow_drift(&made).into_iter().chain(of_damping).chain(of_sea);
     for text in run_tables::warnings_of_step(&made).into_iter().chain(of_drift) {
         // at once for who looks on; for the log with the record
         going.bar.println(format!("warning: {text}"));

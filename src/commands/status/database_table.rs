@@ -36,7 +36,7 @@ pub(crate) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
             continue;
         }
         let data = &attached.data;
-        let radiation = Radiation::new(data).ok().flatten();
+        let radiation = Radiation::new(data);
         rows.push((body, attached, radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()))));
         data.remarks.iter().for_each(|text| whole.note(format!("{}: {text}", body.name)));
         if let Some(radiation) = &radiation {

@@ -724,3 +724,36 @@ fn roll_without_other_damping_is_warned_of() {
     let damped = said("#DAMP *CG 0 0 0 2E4\n");
     assert!(!damped.contains("roll has the damping"), "{damped}");
 }
+
+#[test]
+fn one_period_serves_motions_and_waves_beyond_it_are_said() {
+    let (mut session, _screen, _folder) = common::session();
+    let hull = "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY BARGE\n*G 0 0 0\n#WEIGHT *G 100552 12 26 26\n#DAMP *G 99 99 0 2E5\n&SURFACE\nBLOCK HULL -45 -15 -3.7 45 15 4\nEND_&SURFACE\nEND\n";
+    session.open(
+        "records",
+        format!(
+            "{hull}HYDRODYNAMICS\nG_PRESSURE BARGE -PERIOD 8 -HEADING 180 -PANEL 6\nEND\nFREQ_RESPONSE\nRAO\nEND\n"
+        ),
+    );
+    session.run();
+    assert_eq!(session.errors, 0, "{:?}", session.reports);
+    let said = |session: &windlass::session::Session| {
+        session.reports.iter().map(|r| r.message.clone()).collect::<Vec<_>>().join("\n")
+    };
+    assert!(!said(&session).contains("outside of it"), "{}", said(&session));
+    // of the spectrum of ISSC with a mean period of T1, exp(-691/(T1 w)^4) of the energy is below a frequency: 0.758 below 2 pi/8 with 9 s
+    session.open("more", "FREQ_RESPONSE\nRAO -PERIOD 8 20\nEND\n&ENV SEA -SEA ISSC 180 2 9 -TIME 20 0.25\nFREQ_RESPONSE\nSRESPONSE\nEND\nTDOM\n".to_owned());
+    session.run();
+    let text = said(&session);
+    assert!(
+        text.contains("the database of BARGE has periods of 8.00 s alone: that of 20.00 s is outside of it"),
+        "{text}"
+    );
+    assert!(
+        text.contains("76 % of the energy of the sea is in longer waves")
+            && text.contains("24 % of the energy of the sea is in shorter"),
+        "{text}"
+    );
+    assert!(text.contains("its database has one frequency only"), "{text}");
+    assert_eq!(session.errors, 1, "{text}");
+}

@@ -139,8 +139,9 @@ impl RadiationLoad {
     /// The memory of a radiation over a time (s) with a step (s), and the dividing period (s).
     ///
     /// # Errors
-    /// More steps than are kept.
+    /// More steps than are kept; a database of one frequency.
     pub fn new(radiation: &Radiation, (step, length): (f64, f64), dividing: f64) -> Result<Self, ClassError> {
+        radiation.check_memory()?;
         check_lags(length, step)?;
         let kernel = |time: f64| radiation.tapered_retardation(time, length);
         let memory = RetardationMemory::new(&kernel, (radiation.finest(), length), step);
@@ -333,7 +334,7 @@ pub fn gather_database_loads(
     if under_way.is_some() && *damping != Matrix6::zeros() {
         carried.push(Box::new(DampingLoad { damping: std::mem::take(damping), linear }));
     }
-    if let Some(radiation) = own_radiation(model, body)? {
+    if let Some(radiation) = own_radiation(model, body) {
         let infinite = radiation.infinite;
         if under_way.is_none() {
             added_mass = infinite;

@@ -37,7 +37,7 @@ struct BodyGroup<'m> {
 
 impl<'m> BodyGroup<'m> {
     /// The group of a source.
-    fn new(model: &'m Model, source: &str) -> Result<Self, ClassError> {
+    fn new(model: &'m Model, source: &str) -> Self {
         let members: Vec<(&str, &Database)> = model
             .bodies
             .iter()
@@ -62,8 +62,8 @@ impl<'m> BodyGroup<'m> {
             let pair = interactions.iter().find(|pair| pair.on.0 == *on && pair.by.0 == *by)?;
             interaction_about_origins(pair)
         };
-        let pairs = Radiation::of_bodies(members.len(), database)?;
-        Ok(BodyGroup { keys: members.iter().map(|(key, _)| *key).collect(), pairs })
+        let pairs = Radiation::of_bodies(members.len(), database);
+        BodyGroup { keys: members.iter().map(|(key, _)| *key).collect(), pairs }
     }
 
     /// The force on a body by motions of another, or by its own.
@@ -74,17 +74,13 @@ impl<'m> BodyGroup<'m> {
 }
 
 /// The radiation of a body by its own motions; none where it has no database with radiation.
-///
-/// # Errors
-/// Databases of one frequency.
-pub fn own_radiation(model: &Model, body: &Body) -> Result<Option<Radiation>, ClassError> {
-    let Some(attached) = &body.database else { return Ok(None) };
-    let data = attached.data.as_ref();
+pub fn own_radiation(model: &Model, body: &Body) -> Option<Radiation> {
+    let data = body.database.as_ref()?.data.as_ref();
     if data.interactions.is_empty() {
         return Radiation::new(data);
     }
     let key = Model::key(&body.name);
-    Ok(BodyGroup::new(model, &data.source)?.pair(&key, &key).cloned())
+    BodyGroup::new(model, &data.source).pair(&key, &key).cloned()
 }
 
 /// The waves that a body radiates on another, as the radiation of one body.
@@ -100,16 +96,13 @@ pub struct InteractionRadiation<'m> {
 }
 
 /// All interactions of a model.
-///
-/// # Errors
-/// Databases of one frequency.
-pub fn interaction_radiations(model: &Model) -> Result<Vec<InteractionRadiation<'_>>, ClassError> {
+pub fn interaction_radiations(model: &Model) -> Vec<InteractionRadiation<'_>> {
     let mut groups: Vec<(String, BodyGroup)> = Vec::new();
     let mut list = Vec::new();
     for pair in model.interactions() {
         let Some(data) = interaction_about_origins(&pair) else { continue };
         if !groups.iter().any(|(source, _)| *source == data.source) {
-            groups.push((data.source.clone(), BodyGroup::new(model, &data.source)?));
+            groups.push((data.source.clone(), BodyGroup::new(model, &data.source)));
         }
         let Some((_, group)) = groups.iter().find(|(source, _)| *source == data.source) else { continue };
         if let Some(radiation) = group.pair(pair.on.0, pair.by.0).cloned() {
@@ -117,7 +110,7 @@ pub fn interaction_radiations(model: &Model) -> Result<Vec<InteractionRadiation<
             list.push(InteractionRadiation { pair, data, radiation, own });
         }
     }
-    Ok(list)
+    list
 }
 
 /// Forces of the waves that a body radiates on another, in time.
@@ -203,13 +196,13 @@ pub struct GatheredInteraction {
 /// All interactions of a model; `under_way` with the sea there is.
 ///
 /// # Errors
-/// Databases of one frequency; a memory of more steps than are kept.
+/// A run in time with databases of one frequency; a memory of more steps than are kept.
 pub fn gather_interactions(
     model: &Model,
     under_way: Option<Option<&Sea>>,
 ) -> Result<Vec<GatheredInteraction>, ClassError> {
     let mut list = Vec::new();
-    for InteractionRadiation { pair, data: _, radiation, own } in interaction_radiations(model)? {
+    for InteractionRadiation { pair, data: _, radiation, own } in interaction_radiations(model) {
         let load = match under_way {
             None => None,
             Some(sea) => {
@@ -217,6 +210,7 @@ pub fn gather_interactions(
                 let usual = own.as_ref().map_or_else(|| radiation.memory(), Radiation::memory);
                 let length = attached.and_then(|attached| attached.memory).unwrap_or(usual);
                 let step = super::attached::memory_step(model);
+                radiation.check_memory()?;
                 super::attached::check_lags(length, step)?;
                 let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
                 let kernel = |time: f64| radiation.tapered_retardation(time, length) * factor;

@@ -52,6 +52,8 @@ pub struct Radiation {
     pub infinite: Matrix6<f64>,
     /// How the kernel goes with the added mass of the source.
     pub quality: OgilvieQuality,
+    /// Whether the source has one frequency only: it serves motions at that frequency, and there is no kernel.
+    pub has_one_frequency: bool,
 }
 
 /// How well the kernel and the added mass of a source fulfil Ogilvie's relation, over the largest added mass of a direction.
@@ -65,34 +67,36 @@ pub struct OgilvieQuality {
 }
 
 impl Radiation {
-    /// That of a database of a body alone, or of the own motions of one of several; `None` where it has none.
+    /// Sees that there is a kernel, which a run in time needs.
     ///
     /// # Errors
-    /// Fewer than two frequencies.
-    pub fn new(data: &Database) -> Result<Option<Self>, ClassError> {
-        let Some(fit) = RadiationFit::new(data)? else { return Ok(None) };
+    /// One frequency only.
+    pub fn check_memory(&self) -> Result<(), ClassError> {
+        if self.has_one_frequency {
+            let text = "its database has one frequency only: radiation has no memory, which a run in time needs";
+            return Err(ClassError::new(text).help("more periods of the database; FREQ_RESPONSE takes one"));
+        }
+        Ok(())
+    }
+
+    /// That of a database of a body alone, or of the own motions of one of several; `None` where it has none.
+    pub fn new(data: &Database) -> Option<Self> {
+        let fit = RadiationFit::new(data)?;
         if !fit.is_determined {
             let end = fit.end;
-            return Ok(Some(fit.finish(&[end; 2])));
+            return Some(fit.finish(&[end; 2]));
         }
         let first = positive_part(&fit.first_tail());
         let second = positive_part(&fit.second_tail(&first));
-        Ok(Some(fit.finish(&[first, second])))
+        Some(fit.finish(&[first, second]))
     }
 
     /// That of all pairs of some bodies of one source, row by row: the force on the body of the row by motions of that of the column, about the origins and in
     /// the axes of both. `database` gives what is known of a pair. The tails of all pairs together give no energy, as those of a body alone.
-    ///
-    /// # Errors
-    /// Fewer than two frequencies.
-    pub fn of_bodies(
-        count: usize,
-        database: impl Fn(usize, usize) -> Option<Database>,
-    ) -> Result<Vec<Option<Self>>, ClassError> {
-        let mut fits = Vec::with_capacity(count * count);
-        for (row, column) in (0..count * count).map(|pair| (pair / count, pair % count)) {
-            fits.push(database(row, column).map(|data| RadiationFit::new(&data)).transpose()?.flatten());
-        }
+    pub fn of_bodies(count: usize, database: impl Fn(usize, usize) -> Option<Database>) -> Vec<Option<Self>> {
+        let pairs = (0..count * count).map(|pair| (pair / count, pair % count));
+        let fits: Vec<Option<RadiationFit>> =
+            pairs.map(|(row, column)| database(row, column).and_then(|data| RadiationFit::new(&data))).collect();
         let is_determined = fits.iter().flatten().all(|fit| fit.is_determined);
         let joined = |blocks: &[Matrix6<f64>]| {
             if !is_determined {
@@ -115,7 +119,7 @@ impl Radiation {
         let first = of(&|_, fit| fit.first_tail());
         let second = of(&|pair, fit| fit.second_tail(&first[pair]));
         let tails = first.into_iter().zip(second);
-        Ok(fits.into_iter().zip(tails).map(|(fit, (one, two))| fit.map(|fit| fit.finish(&[one, two]))).collect())
+        fits.into_iter().zip(tails).map(|(fit, (one, two))| fit.map(|fit| fit.finish(&[one, two]))).collect()
     }
 
     /// The kernel at a time (N/m, N, N m): exact for damping that is straight between its frequencies (Filon).
@@ -260,15 +264,12 @@ struct RadiationFit {
     relation: OgilvieRelation,
     /// Whether there are frequencies enough for a fit.
     is_determined: bool,
+    has_one_frequency: bool,
 }
 
 impl RadiationFit {
-    fn new(data: &Database) -> Result<Option<Self>, ClassError> {
-        let (Some(last), Some(end)) = (data.frequencies.last(), data.damping.last()) else { return Ok(None) };
-        if data.frequencies.len() < 2 {
-            let text = format!("the database ({}) has one frequency only: its radiation has no memory", data.source);
-            return Err(ClassError::new(text));
-        }
+    fn new(data: &Database) -> Option<Self> {
+        let (last, end) = (data.frequencies.last()?, data.damping.last()?);
         let moved = |list: &[Matrix6<f64>]| list.iter().map(|m| moved_matrix(m, data.reference)).collect::<Vec<_>>();
         let (mut frequencies, mut damping) = refined(&data.frequencies, &moved(&data.damping));
         let end = moved_matrix(end, data.reference);
@@ -288,7 +289,8 @@ impl RadiationFit {
         let relation =
             OgilvieRelation::new(&data.frequencies, &moved(&data.added_mass), (&frequencies, &damping, &shares));
         let is_determined = data.frequencies.len() >= LEAST_FREQUENCIES;
-        Ok(Some(RadiationFit { frequencies, damping, shares, end, given, relation, is_determined }))
+        let has_one_frequency = data.frequencies.len() == 1;
+        Some(RadiationFit { frequencies, damping, shares, end, given, relation, is_determined, has_one_frequency })
     }
 
     /// What a fit explains of the added mass, else the damping at the last frequency, with which the tail falls as 1/w3.
@@ -322,7 +324,9 @@ impl RadiationFit {
 
     /// The radiation with B_1 and B_2.
     fn finish(self, tail: &[Matrix6<f64>; 2]) -> Radiation {
-        let RadiationFit { frequencies, mut damping, shares, given, relation, is_determined, .. } = self;
+        let RadiationFit {
+            frequencies, mut damping, shares, given, relation, is_determined, has_one_frequency, ..
+        } = self;
         let infinite = given.unwrap_or_else(|| relation.fit(&tail.map(Some), None)[2]);
         for (share, matrix) in shares.iter().zip(tail) {
             damping.iter_mut().zip(share).for_each(|(damping, share)| *damping += matrix * *share);
@@ -338,7 +342,7 @@ impl RadiationFit {
                 _ => None,
             })
             .collect();
-        Radiation { frequencies, damping, slopes, infinite, quality }
+        Radiation { frequencies, damping, slopes, infinite, quality, has_one_frequency }
     }
 }
 

@@ -102,9 +102,7 @@ impl LinearInteraction {
     fn all(model: &Model, system: &System) -> Result<Vec<Self>, SolveError> {
         let number = |key: &str| system.nodes.iter().position(|node| node.key == key);
         let mut list = Vec::new();
-        for InteractionRadiation { pair, data, radiation, own: _ } in
-            interaction_radiations(model).map_err(SolveError::new)?
-        {
+        for InteractionRadiation { pair, data, radiation, own: _ } in interaction_radiations(model) {
             let (Some(on), Some(by)) = (number(pair.on.0), number(pair.by.0)) else { continue };
             let factor = model.multipliers.factor(Category::RadiationDrag.name(), &pair.on.1.name);
             list.push(LinearInteraction { on, by, data, infinite: radiation.infinite, factor });
@@ -116,7 +114,7 @@ impl LinearInteraction {
 impl Floats {
     fn new(model: &Model, body: &Body, attached: &AttachedDatabase, pose: &Pose) -> Result<Self, ClassError> {
         let name = &body.name;
-        let infinite = own_radiation(model, body)?.map_or_else(Matrix6::zeros, |r| r.infinite);
+        let infinite = own_radiation(model, body).map_or_else(Matrix6::zeros, |r| r.infinite);
         let factors = [Category::Wave, Category::RadiationDrag, Category::WaveDrift]
             .map(|category| model.multipliers.factor(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
