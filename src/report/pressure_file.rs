@@ -10,7 +10,6 @@ use nalgebra::{DMatrix, Matrix3, Vector3};
 use netcdf3::{DataSet, FileWriter, Version};
 use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
 use windlass_hydro::database::capytaine::DRIFT_METHOD;
-use windlass_model::PanelSizes;
 
 /// Names of the motions, as Capytaine has them.
 const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
@@ -55,7 +54,9 @@ pub struct PressureFile<'a> {
     /// The water.
     pub water: Water,
     /// Size of the panels (m).
-    pub panel_sizes: PanelSizes,
+    pub panel_size: f64,
+    /// The same at sharp edges and at the waterline (m), where some are refined.
+    pub edge_size: Option<f64>,
     /// Where the waves go to (rad).
     pub headings: &'a [f64],
     /// Frequency by frequency.
@@ -202,13 +203,13 @@ impl PressureFile<'_> {
             }
             Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
         }
-        let edge_size = self.panel_sizes.largest * self.panel_sizes.edge_share;
+        let edge_size = self.edge_size.unwrap_or(self.panel_size);
         for (name, unit, text, value) in [
             ("rho", "kg/m3", "density", self.water.density),
             ("g", "m/s2", "gravity", self.water.gravity),
             ("water_depth", "m", "depth; infinity is deep water", self.water.depth.unwrap_or(f64::INFINITY)),
             ("forward_speed", "m/s", "forward speed", 0.0),
-            ("panel_size", "m", "size of the panels", self.panel_sizes.largest),
+            ("panel_size", "m", "size of the panels", self.panel_size),
             ("edge_panel_size", "m", "size of the panels at sharp edges and at the waterline", edge_size),
         ] {
             made.numbers(name, &[], unit, text, vec![value])?;

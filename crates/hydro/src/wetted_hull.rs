@@ -168,11 +168,7 @@ impl WettedHull {
 
     /// The longest side of its faces (m): of own panels their size.
     pub fn longest_side(&self) -> f64 {
-        let side = |face: &Polygon| {
-            let next = face.iter().cycle().skip(1);
-            face.iter().zip(next).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
-        };
-        self.polygons.iter().map(side).fold(0.0, f64::max)
+        self.polygons.iter().map(longest_side).fold(0.0, f64::max)
     }
 
     /// How deep it reaches (m).
@@ -183,6 +179,13 @@ impl WettedHull {
     /// How many faces it has: of own panels their number.
     pub fn face_count(&self) -> usize {
         self.polygons.len()
+    }
+
+    /// Whether panels of sizes are refined: some face that is larger than a panel has an edge for it.
+    pub fn is_refined_by(&self, sizes: PanelSizes) -> bool {
+        let is_large = |face: &Polygon| longest_side(face) > sizes.largest * (1.0 + 1e-9);
+        let mut faces = self.polygons.iter().zip(&self.refined);
+        sizes.edge_share < 1.0 && faces.any(|(face, refined)| refined.contains(&true) && is_large(face))
     }
 
     /// Quadrilaterals of a size at most, a triangle repeating a corner: of the part at positive coordinates where mirror planes are used.
@@ -244,6 +247,12 @@ impl FacedHull {
         let (axes, has_own_panels) = (tilt.transpose(), self.has_own_panels);
         WettedHull { polygons, refined, axes, origin_height, mirrors, area, volume, pieces: Vec::new(), has_own_panels }
     }
+}
+
+/// The longest side of a face (m).
+fn longest_side(face: &Polygon) -> f64 {
+    let next = face.iter().cycle().skip(1);
+    face.iter().zip(next).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
 }
 
 /// Whether a piece belongs to the hull that waves act on by a database.

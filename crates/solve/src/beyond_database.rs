@@ -2,12 +2,15 @@
 
 use std::f64::consts::TAU;
 use windlass_hydro::steady::Steady;
-use windlass_model::{Body, ClassError, Database, Model};
+use windlass_model::{Body, ClassError, Database, DriftMethod, Model};
 
 /// Share of the energy of a sea in waves longer than those of a database that is let pass: the forces of its longest period stand for theirs.
 const LONG_SHARE: f64 = 0.01;
 /// The same of shorter waves, whose forces are taken to fall with the period.
 const SHORT_SHARE: f64 = 0.1;
+/// The same of mean drift, which is small in longer waves, and goes to a limit in shorter ones.
+const DRIFT_LONG_SHARE: f64 = 0.05;
+const DRIFT_SHORT_SHARE: f64 = 0.2;
 /// A frequency is one of a database to this share.
 const SAME_SHARE: f64 = 1e-6;
 
@@ -34,30 +37,64 @@ fn periods([first, last]: [f64; 2]) -> String {
     }
 }
 
+/// The shares of the energy of a sea in waves longer, and in waves shorter, than those of a range.
+fn shares_beyond(sea: &Steady, range: [f64; 2]) -> [f64; 2] {
+    let waves = || sea.waves.iter().flat_map(|(_, waves)| &waves.energies);
+    let energy = |is_counted: &dyn Fn(f64) -> bool| -> f64 {
+        waves().filter(|(frequency, _)| is_counted(*frequency)).map(|(_, energy)| energy).sum()
+    };
+    let whole = energy(&|_| true);
+    let share = |is_beyond: &dyn Fn(f64) -> bool| if whole > 0.0 { energy(is_beyond) / whole } else { 0.0 };
+    [share(&|w| is_longer(w, range)), share(&|w| is_shorter(w, range))]
+}
+
+/// A share of the energy of the sea where it is more than is let pass, with what is said of it.
+fn said(share: f64, let_pass: f64, what: &str) -> Option<String> {
+    (share > let_pass).then(|| format!("{:.0} % of the energy of the sea is in {what}", 100.0 * share))
+}
+
+/// A sentence of what is said of a body.
+fn sentence(of: &str, range: [f64; 2], parts: [Option<String>; 2]) -> Option<String> {
+    let parts: Vec<String> = parts.into_iter().flatten().collect();
+    (!parts.is_empty()).then(|| format!("{of} has periods of {}: {}", periods(range), parts.join("; ")))
+}
+
 /// Warnings of the sea of a model: bodies whose databases lack the periods of much of its energy.
 ///
 /// # Errors
 /// Waves that cannot be computed.
 pub fn warnings_of_sea(model: &Model) -> Result<Vec<String>, ClassError> {
-    let steady = Steady::new(model)?;
-    let waves = || steady.waves.iter().flat_map(|(_, waves)| &waves.energies);
-    let whole: f64 = waves().map(|(_, energy)| energy).sum();
+    let sea = Steady::new(model)?;
     let of_body = |body: &Body| {
         let range = range(body)?;
-        let share = |is_beyond: &dyn Fn(f64) -> bool| {
-            waves().filter(|(frequency, _)| is_beyond(*frequency)).map(|(_, energy)| energy).sum::<f64>() / whole
-        };
-        let (long, short) = (share(&|w| is_longer(w, range)), share(&|w| is_shorter(w, range)));
-        let percent = |share: f64| format!("{:.0} % of the energy of the sea", 100.0 * share);
-        let of_long = (long > LONG_SHARE)
-            .then(|| format!("{} is in longer waves, for which the forces of its longest period stand", percent(long)));
-        let of_short = (short > SHORT_SHARE)
-            .then(|| format!("{} is in shorter waves, whose forces are taken to fall with the period", percent(short)));
-        let parts: Vec<String> = of_long.into_iter().chain(of_short).collect();
-        (!parts.is_empty())
-            .then(|| format!("the database of {} has periods of {}: {}", body.name, periods(range), parts.join("; ")))
+        let [long, short] = shares_beyond(&sea, range);
+        let parts = [
+            said(long, LONG_SHARE, "longer waves, for which the forces of its longest period stand"),
+            said(short, SHORT_SHARE, "shorter waves, whose forces are taken to fall with the period"),
+        ];
+        sentence(&format!("the database of {}", body.name), range, parts)
     };
-    Ok(model.bodies.values().filter(|_| whole > 0.0).filter_map(of_body).collect())
+    Ok(model.bodies.values().filter_map(of_body).collect())
+}
+
+/// The same of the mean drift that databases give.
+///
+/// # Errors
+/// Waves that cannot be computed.
+pub fn warnings_of_mean_drift(model: &Model) -> Result<Vec<String>, ClassError> {
+    let sea = Steady::new(model)?;
+    let of_body = |body: &Body| {
+        let attached = body.database.as_ref().filter(|attached| attached.drift != DriftMethod::None)?;
+        let drift = attached.data.drift.as_ref()?;
+        let range = [*drift.frequencies.first()?, *drift.frequencies.last()?];
+        let [long, short] = shares_beyond(&sea, range);
+        let parts = [
+            said(long, DRIFT_LONG_SHARE, "longer waves, for which the drift of its longest period stands"),
+            said(short, DRIFT_SHORT_SHARE, "shorter waves, for which the drift of its shortest period stands"),
+        ];
+        sentence(&format!("the mean drift of {} in its database", body.name), range, parts)
+    };
+    Ok(model.bodies.values().filter_map(of_body).collect())
 }
 
 /// Warnings of frequencies that are asked for (rad/s): bodies whose databases end before them.

@@ -101,6 +101,8 @@ pub struct MeshedBody {
     /// Its heading from that of the group (rad).
     pub turn: f64,
     has_lid: bool,
+    /// Whether its panels are smaller at edges.
+    is_refined: bool,
     /// Panels of its mesh, of the part that is solved.
     panels: usize,
     lid_panels: usize,
@@ -247,8 +249,8 @@ impl MeshedBodies {
             let volume = mesh.volumes()[2].abs() * images;
             let origin = shift + Vector3::new(0.0, 0.0, hull.origin_height);
             let (panels, lid_panels) = (mesh.hull().len(), mesh.lid().len());
-            let name = body.name.clone();
-            bodies.push(MeshedBody { name, key, hull, origin, turn, has_lid, panels, lid_panels, volume });
+            let (name, is_refined) = (body.name.clone(), hull.is_refined_by(sizes));
+            bodies.push(MeshedBody { name, key, hull, origin, turn, has_lid, is_refined, panels, lid_panels, volume });
             parts.push(DiffractionBody { mesh, origin });
         }
         let count = |of: &dyn Fn(&MeshedBody) -> usize| bodies.iter().map(of).sum::<usize>() as f64;
@@ -293,6 +295,16 @@ impl MeshedBodies {
     /// The panels of all hulls, with those of the images.
     pub fn panel_count(&self) -> usize {
         self.bodies.iter().map(|body| body.panels).sum::<usize>() * self.mirrors.images().len()
+    }
+
+    /// The sizes of the panels that were asked for.
+    fn sizes(&self) -> PanelSizes {
+        PanelSizes { largest: self.size, edge_share: self.edge_share }
+    }
+
+    /// The size of the panels at edges (m), where some are refined.
+    fn edge_size(&self) -> Option<f64> {
+        self.bodies.iter().any(|body| body.is_refined).then_some(self.size * self.edge_share)
     }
 
     /// The length of the shortest wave (m).
@@ -350,7 +362,7 @@ impl MeshedBodies {
         let source = if alone { SOURCE.to_owned() } else { format!("{SOURCE} of {}", self.names()) };
         let of = |i: usize| {
             let data = capytaine::read(&source, bytes, (!alone).then_some(i + 1)).map_err(|error| error.to_string())?;
-            Ok(Database { panels: Some(PanelSizes { largest: self.size, edge_share: self.edge_share }), ..data })
+            Ok(Database { panels: Some(self.sizes()), ..data })
         };
         (0..self.bodies.len()).map(of).collect()
     }
@@ -706,7 +718,8 @@ fn solve(
     let file = PressureFile {
         bodies: &bodies,
         water: meshed.water,
-        panel_sizes: PanelSizes { largest: meshed.size, edge_share: meshed.edge_share },
+        panel_size: meshed.size,
+        edge_size: meshed.edge_size(),
         headings: &request.headings,
         forces: &made,
         energy: &energy,
@@ -947,7 +960,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
     }
     table = table.fact("Symmetry", planes, Dim::None);
     table = table.fact("Size of Panels", meshed.size, Dim::Length);
-    table = table.fact("Panels at Edges", meshed.size * meshed.edge_share, Dim::Length);
+    if let Some(size) = meshed.edge_size() {
+        table = table.fact("Panels at Edges", size, Dim::Length);
+    }
     table = match water.depth {
         Some(depth) => table.fact("Depth", depth, Dim::Length),
         None => table.fact("Depth", "deep water", Dim::None),

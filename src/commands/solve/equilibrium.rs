@@ -17,6 +17,7 @@ use windlass_base::values::Given;
 use windlass_base::values::Noun;
 use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 use windlass_model::{Model, find};
+use windlass_solve::beyond_database::warnings_of_mean_drift;
 use windlass_solve::drift_damping::{body_drift_dampings, drift_damping_table};
 use windlass_solve::results::along::static_cautions;
 use windlass_solve::{EquilibriumOptions, SolveError, find_equilibrium_with_rebuilds, tables};
@@ -194,6 +195,8 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.equilibrium = EquilibriumOptions { ignored: Vec::new(), ..options };
     let mut list = vec![tables::rest(&job.model, &settled), forces];
     let dampings = body_drift_dampings(&job.model).map_err(|e| e.diagnostic(call.args.span, job.units))?;
+    let of_drift = warnings_of_mean_drift(&job.model).map_err(|e| e.diagnostic(call.args.span, job.units))?;
+    of_drift.iter().for_each(|text| list.iter_mut().take(1).for_each(|table| table.warn(text)));
     // without a current it matters to motions alone
     if job.model.environment.current.is_some() {
         list.extend(drift_damping_table(&dampings));

@@ -742,7 +742,7 @@ fn one_period_serves_motions_and_waves_beyond_it_are_said() {
     };
     assert!(!said(&session).contains("outside of it"), "{}", said(&session));
     // of the spectrum of ISSC with a mean period of T1, exp(-691/(T1 w)^4) of the energy is below a frequency: 0.758 below 2 pi/8 with 9 s
-    session.open("more", "FREQ_RESPONSE\nRAO -PERIOD 8 20\nEND\n&ENV SEA -SEA ISSC 180 2 9 -TIME 20 0.25\nFREQ_RESPONSE\nSRESPONSE\nEND\nTDOM\n".to_owned());
+    session.open("more", "FREQ_RESPONSE\nRAO -PERIOD 8 20\nEND\n&ENV SEA -SEA ISSC 180 2 9 -TIME 20 0.25\nFREQ_RESPONSE\nSRESPONSE\nEND\n&EQUI\nTDOM\n".to_owned());
     session.run();
     let text = said(&session);
     assert!(
@@ -754,6 +754,8 @@ fn one_period_serves_motions_and_waves_beyond_it_are_said() {
             && text.contains("24 % of the energy of the sea is in shorter"),
         "{text}"
     );
+    let drift = "the mean drift of BARGE in its database has periods of 8.00 s alone: 76 % of the energy of the sea is in longer waves, for which the drift of its longest period stands; 24 %";
+    assert!(text.contains(drift), "{text}");
     assert!(text.contains("its database has one frequency only"), "{text}");
     assert_eq!(session.errors, 1, "{text}");
 }
