@@ -946,7 +946,8 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         table = table.fact(&fact("Lid of the Waterplane"), lid, Dim::None);
         table = table.fact(&fact("Displaced Volume"), body.hull.volume, Dim::Volume);
         table = table.fact(&fact("By the Panels"), body.volume, Dim::Volume);
-        if let Some(radiation) = Radiation::new(data) {
+        // of one frequency there is none
+        if let Some(radiation) = Radiation::new(data).filter(|made| !made.has_one_frequency) {
             table = table.fact(&fact("Ogilvie's Relation"), ogilvie_figures(&radiation.quality), Dim::None);
         }
     }
@@ -968,7 +969,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         None => table.fact("Depth", "deep water", Dim::None),
     };
     table = table.fact("Mean Drift", drift, Dim::None);
-    table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
+    if meshed.frequencies.len() > 1 {
+        table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
+    }
     table.note(
         "Haskind: difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion, in that where it is largest",
     );
