@@ -150,11 +150,13 @@ pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     let next = headings.iter().skip(1).copied().chain([first + TAU]);
     let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
     (to - from > super::interpolation::WIDEST_GAP).then(|| {
+        let [from, to, gap] = [from, to, to - from].map(f64::to_degrees);
+        if headings.len() == 1 {
+            return format!("{HEADING_GAP_REMARK} all round: waves other than toward {from:.0} degrees in the body are refused");
+        }
         format!(
-            "{HEADING_GAP_REMARK} of {:.0} degrees: waves toward {:.0} to {:.0} in the body are refused",
-            (to - from).to_degrees(),
-            from.to_degrees(),
-            to.to_degrees() % 360.0
+            "{HEADING_GAP_REMARK} of {gap:.0} degrees: waves toward {from:.0} to {:.0} in the body are refused",
+            to % 360.0
         )
     })
 }

@@ -58,12 +58,13 @@ pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket,
         }
     }
     if gap > WIDEST_GAP {
-        let text = format!(
-            "the database has no waves toward {:.1} degrees in the body: its headings leave a gap from {:.1} to {:.1}",
-            turn.to_degrees(),
-            a.to_degrees(),
-            b.to_degrees()
-        );
+        let [turn, a, b] = [turn, a, b].map(f64::to_degrees);
+        let why = if count == 1 {
+            format!("it has those toward {a:.1} degrees alone")
+        } else {
+            format!("its headings leave a gap from {a:.1} to {b:.1}")
+        };
+        let text = format!("the database has no waves toward {turn:.1} degrees in the body: {why}");
         return Err(ClassError::new(text).help("compute the database for headings all round, 90 degrees apart at most"));
     }
     Ok((low, high, from / gap))
