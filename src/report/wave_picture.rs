@@ -24,7 +24,7 @@ const SIGNED_STOPS: [[f64; 3]; 5] =
 /// A body in the plan.
 const BODY: RGBColor = RGBColor(205, 205, 205);
 /// Side of a block of one colour (pixels).
-const BLOCK: i32 = 3;
+const BLOCK: i32 = 2;
 /// Bands of a scale of colours, about.
 const BANDS: f64 = 16.0;
 /// Margin of the page (pixels).
@@ -129,8 +129,8 @@ impl WaveGrid {
         self.values.get(row * self.columns + column).copied().unwrap_or(C::new(f64::NAN, f64::NAN))
     }
 
-    /// The value at a place, between points; of those that are not finite the others stand in.
-    fn at(&self, [x, y]: [f64; 2]) -> C {
+    /// The value that is shown at a place, between those of the points as contours are; of those that are not finite the others stand in.
+    fn shown_at(&self, [x, y]: [f64; 2], phase: Option<f64>) -> f64 {
         let share = |at: f64, low: f64, count: usize| {
             let s = ((at - low) / self.step).clamp(0.0, count.saturating_sub(1) as f64);
             let first = (s.floor() as usize).min(count.saturating_sub(2));
@@ -139,10 +139,10 @@ impl WaveGrid {
         let (column, u) = share(x, self.low[0], self.columns);
         let (row, v) = share(y, self.low[1], self.rows());
         let corners = [(0, 0, (1.0 - u) * (1.0 - v)), (1, 0, u * (1.0 - v)), (0, 1, (1.0 - u) * v), (1, 1, u * v)];
-        let (mut sum, mut weight) = (C::default(), 0.0);
+        let (mut sum, mut weight) = (0.0, 0.0);
         for (dx, dy, share) in corners {
-            let value = self.value(column + dx, row + dy);
-            if value.re.is_finite() && value.im.is_finite() {
+            let value = shown(self.value(column + dx, row + dy), phase);
+            if value.is_finite() {
                 sum += value * (share + 1e-9);
                 weight += share + 1e-9;
             }
@@ -285,7 +285,7 @@ impl WavePicture {
     fn plan<B: DrawingBackend>(&self, sheet: &Sheet<B>, top: i32) -> Result<(), PlotError> {
         let (width, height, scale) = self.plan_size();
         let frame = PlanFrame { left: MARGIN, low: top + height, scale, origin: self.grid.low };
-        let value = |at: [f64; 2]| shown(self.grid.at(at), self.phase);
+        let value = |at: [f64; 2]| self.grid.shown_at(at, self.phase);
         let colours =
             ColourScale::new(self.grid.values.iter().map(|value| shown(*value, self.phase)), self.phase.is_some());
         // blocks of one colour that lie side by side are drawn at once

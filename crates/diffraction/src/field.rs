@@ -67,6 +67,8 @@ pub struct ControlSurfaceDrift {
 
 /// Distance of a control surface from the bodies over their extent.
 const CONTROL_SHARE: f64 = 0.25;
+/// Distance of a control box from the hulls over the longest diagonal of the panels of its body, at least: nearer the flow is that of single panels.
+const LEAST_GAP_SHARE: f64 = 0.07;
 /// Directions that a control box is tried in, over a quarter of a turn.
 const BOX_DIRECTIONS: usize = 18;
 /// Most rules along a side of a control surface.
@@ -439,7 +441,8 @@ impl DiffractionProblem {
     }
 
     /// A control surface around one of the bodies, with sides along a heading (rad) and its opposite: at a distance of a quarter of its extent, or
-    /// half way to the nearest other body, beside it or beneath its keel. None where another body is within the rectangle of its waterline and no deeper.
+    /// half way to the nearest other body, beside it or beneath its keel. None where another body is within the rectangle of its waterline and no deeper, or
+    /// so near that the box would be among the panels.
     pub fn control_box(&self, body: usize, heading: f64) -> Option<ControlBox> {
         self.box_and_gap(body, heading).map(|(made, _)| made)
     }
@@ -467,6 +470,7 @@ impl DiffractionProblem {
                 .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
         });
         let draught = own.iter().fold(0.0, |most: f64, at| most.max(-at.z));
+        let least = LEAST_GAP_SHARE * self.largest_panel(body);
         let middle = limits.map(|[low, high]| 0.5 * (low + high));
         let half = limits.map(|[low, high]| 0.5 * (high - low));
         let mut gap = CONTROL_SHARE * half[0].max(half[1]).max(draught);
@@ -489,7 +493,7 @@ impl DiffractionProblem {
         let clearance = gap.max(CONTROL_SHARE * half[0].min(half[1])).min(under);
         let depth = draught + clearance;
         let depth = if under.is_finite() { depth } else { self.control_depth(depth) };
-        (gap > 0.0)
+        (gap > least)
             .then_some((ControlBox { centre, half: half.map(|half| half + gap), heading, depth }, gap.min(under)))
     }
 

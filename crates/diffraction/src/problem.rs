@@ -278,6 +278,12 @@ impl DiffractionProblem {
         (middle, radius, self.draught)
     }
 
+    /// The longest diagonal of the panels of a body (m).
+    pub(crate) fn largest_panel(&self, body: usize) -> f64 {
+        let panels = self.bodies.get(body).and_then(|body| self.mesh.hull().get(body.panels.clone()));
+        panels.into_iter().flatten().map(|panel| panel.diagonal).fold(0.0, f64::max)
+    }
+
     /// Corners of the panels of a body and of their images; none where there is no such body.
     pub(crate) fn body_corners(&self, body: usize) -> Option<Vec<Vector3<f64>>> {
         let panels = self.mesh.hull().get(self.bodies.get(body)?.panels.clone())?;

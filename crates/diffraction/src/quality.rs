@@ -12,6 +12,8 @@ type C = Complex<f64>;
 
 /// How far from its panel a point is seen from, over the panel's diagonal.
 const ASIDE_SHARE: f64 = 0.02;
+/// Images below the bottom, and as many above the water, of a body that stands on it.
+const BOTTOM_IMAGES: i32 = 8;
 /// What is added to a normal for rays that meet no edges of regular meshes.
 const RAYS: [[f64; 3]; 3] = [[0.1237, 0.2711, 0.0713], [-0.2193, 0.1571, 0.1879], [0.0547, -0.1933, -0.2377]];
 /// Headings over which the waves of a motion are summed, beyond two for each wave length of the hull's circumference.
@@ -28,22 +30,28 @@ pub struct MeshQuality {
     pub slenderness: f64,
     /// Panels whose normal points into the hull, by their numbers from 1.
     pub turned: Vec<usize>,
-    /// Largest solid angle by which the panels, with their image above the water, do not close around a point beside one of them, over that of a
+    /// Largest solid angle by which the panels, with their images above the water and below a bottom that they stand on, do not close around a point beside one of them, over that of a
     /// sphere: openings, and panels that overlap.
     pub opening: f64,
-    /// Displaced volume by x, y and z (m3), as of [`HullMesh::volumes`].
+    /// Displaced volume by x, y and z (m3), as of [`HullMesh::volumes`]; of a body that stands on the bottom that by z is none.
     pub volumes: [f64; 3],
 }
 
 impl MeshQuality {
-    /// That of a mesh.
-    pub fn new(mesh: &HullMesh) -> Self {
+    /// That of a mesh, which stands on a bottom where its depth (m) is given: it is open there.
+    pub fn new(mesh: &HullMesh, bottom: Option<f64>) -> Self {
         let images = mesh.mirrors().images();
+        // heights of a point in the mirrors of the water level and of the bottom: of that so many that little is seen of the ends
+        let shifts: Vec<f64> = bottom.map_or_else(
+            || vec![0.0],
+            |depth| (-BOTTOM_IMAGES..=BOTTOM_IMAGES).map(|n| 2.0 * f64::from(n) * depth).collect(),
+        );
         // how often the panels go round a point
         let turns = |at: &Vector3<f64>| -> f64 {
             let seen = images.iter().flat_map(|image| {
                 let from = mirrored(at, *image);
-                [from, Vector3::new(from.x, from.y, -from.z)]
+                let at_height = move |z: f64| Vector3::new(from.x, from.y, z);
+                shifts.iter().flat_map(move |shift| [at_height(from.z + shift), at_height(shift - from.z)])
             });
             let angle: f64 =
                 seen.map(|from| mesh.hull().iter().map(|panel| panel.rankine(&from)[1]).sum::<f64>()).sum();
@@ -54,7 +62,11 @@ impl MeshQuality {
         let doubled: Vec<[Vector3<f64>; 4]> = images
             .iter()
             .flat_map(|image| mesh.hull().iter().map(|panel| panel.corners().map(|corner| mirrored(&corner, *image))))
-            .flat_map(|corners| [corners, corners.map(|at| Vector3::new(at.x, at.y, -at.z))])
+            .flat_map(|corners| {
+                let of_sign =
+                    move |sign: f64, shift: f64| corners.map(|at| Vector3::new(at.x, at.y, sign * at.z + shift));
+                shifts.iter().flat_map(move |shift| [of_sign(1.0, *shift), of_sign(-1.0, *shift)])
+            })
             .collect();
         let sides: Vec<(f64, bool)> = mesh
             .hull()
@@ -226,12 +238,20 @@ mod tests {
 
     #[test]
     fn closed_cube_is_faultless_and_open_one_shows_solid_angle_of_its_opening() {
-        let whole = MeshQuality::new(&cube(&[0, 1, 2, 3, 4]));
+        let whole = MeshQuality::new(&cube(&[0, 1, 2, 3, 4]), None);
         assert!(whole.turned.is_empty() && whole.opening < 1e-12 && whole.crookedness == 0.0, "{whole:?}");
         assert!((whole.slenderness - 1.0).abs() < 1e-12 && (whole.sizes[1] - 1.0).abs() < 1e-12, "{whole:?}");
         // of a box of 1 x 1 x 2 m without an end of both halves; from beside the middle of that end's opposite nothing near is missing
-        let open = MeshQuality::new(&cube(&[0, 1, 2, 3]));
+        let open = MeshQuality::new(&cube(&[0, 1, 2, 3]), None);
         assert!(open.opening > 0.05, "{open:?}");
+    }
+
+    #[test]
+    fn sides_that_stand_on_the_bottom_are_open_by_what_is_seen_of_the_ends_of_their_images() {
+        // squares of 1 m2 from 16 to 17 m away on both sides: 1/(4 pi 16^2) of a sphere each at most
+        let sides = MeshQuality::new(&cube(&[1, 2, 3, 4]), Some(1.0));
+        let seen = 2.0 / (4.0 * PI * 16.5_f64.powi(2));
+        assert!(sides.turned.is_empty() && (sides.opening / seen - 1.0).abs() < 0.1, "{sides:?} {seen}");
     }
 
     #[test]
@@ -239,7 +259,7 @@ mod tests {
         let mut quads: Vec<_> = cube(&[0, 1, 2, 3, 4]).hull().iter().map(|panel| *panel.corners()).collect();
         quads[2].reverse();
         let mesh = HullMesh::new(&quads, MirrorPlanes::default()).unwrap();
-        assert_eq!(MeshQuality::new(&mesh).turned, [3]);
+        assert_eq!(MeshQuality::new(&mesh, None).turned, [3]);
     }
 
     #[test]
@@ -247,7 +267,7 @@ mod tests {
         let at = Vector3::new;
         // the corners of a square alternately 0.1 up and down: 0.1 from the plane between them, of a diagonal of sqrt(2)
         let quad = [at(0.0, 0.0, -1.9), at(0.0, 1.0, -2.1), at(1.0, 1.0, -1.9), at(1.0, 0.0, -2.1)];
-        let made = MeshQuality::new(&HullMesh::new(&[quad], MirrorPlanes::default()).unwrap());
+        let made = MeshQuality::new(&HullMesh::new(&[quad], MirrorPlanes::default()).unwrap(), None);
         assert!((made.crookedness - 0.1 / 2.04_f64.sqrt()).abs() < 0.03, "{made:?}");
     }
 }

@@ -61,7 +61,7 @@ pub use body_load::{BodyLoad, BodyStep, DividedLoad, DynamicLoad, Immersed, Iner
 pub use buoyancy::{Hull, PieceFault, combine_pieces, piece_faults};
 pub use tank::{Liquid, Tank, balance_tanks, compartments_of, contents_mass, laden_mass};
 
-use nalgebra::{Matrix3, Matrix6, Vector3};
+use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};
 use sea::Sea;
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -327,6 +327,16 @@ impl Floating {
     pub fn linear_damping(&self, pose: &Pose) -> Matrix6<f64> {
         in_pose(&self.damping, pose)
     }
+}
+
+/// The axes of the heading of a pose: z up, x where its own points on the plan. Those of a database.
+pub fn heading_axes(pose: &Pose) -> Matrix3<f64> {
+    *Rotation3::from_axis_angle(&Vector3::z_axis(), pose.axes[(1, 0)].atan2(pose.axes[(0, 0)])).matrix()
+}
+
+/// A matrix of a database, of the axes of the heading, in global axes.
+pub fn in_heading(matrix: &Matrix6<f64>, pose: &Pose) -> Matrix6<f64> {
+    in_pose(matrix, &Pose { axes: heading_axes(pose), ..*pose })
 }
 
 /// A matrix of the body's axes in global axes.

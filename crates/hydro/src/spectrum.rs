@@ -137,6 +137,13 @@ impl WaveEnergies {
         })
     }
 
+    /// The same with a share of the energy.
+    pub fn scaled(&self, share: f64) -> Self {
+        WaveEnergies {
+            energies: self.energies.iter().map(|(frequency, energy)| (*frequency, energy * share)).collect(),
+        }
+    }
+
     /// The energies of waves given one by one, by the direction they come from (rad).
     pub fn by_direction(waves: &[GivenWave]) -> Vec<(f64, Self)> {
         let mut found: Vec<(f64, Self)> = Vec::new();

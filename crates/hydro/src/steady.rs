@@ -2,7 +2,8 @@
 
 use super::current::CurrentField;
 use super::sea::given::given_trains;
-use super::spectrum::WaveEnergies;
+use super::sea::spreading;
+use super::spectrum::{WaveEnergies, is_regular};
 use super::variation::{StreamVariation, Variation};
 use super::wind::WindField;
 use nalgebra::Vector3;
@@ -12,6 +13,9 @@ use windlass_model::{ClassError, Environment, Model, Surroundings};
 /// Half the height over which what is decided by the height of a point passes from current to wind (m). The sources say
 /// only "above" and "below"; a jump would keep an equilibrium near it from being found.
 pub const SURFACE_TRANSITION_M: f64 = 0.25;
+
+/// Directions that a short-crested sea at rest is made of: a mean of `cos` or `cos2` of the direction is met to 2e-4.
+const SPREAD_PARTS: usize = 24;
 
 /// Air or water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,7 +35,7 @@ pub struct Steady {
     pub wind: Option<WindField>,
     /// Current.
     pub current: CurrentField,
-    /// The seas, each with the horizontal direction it travels toward.
+    /// The seas, each with the horizontal direction it travels toward; a short-crested one in parts of as much energy each.
     pub waves: Vec<(Vector3<f64>, Arc<WaveEnergies>)>,
     /// What varies in time, for bodies under way.
     pub variation: Option<Arc<Variation>>,
@@ -84,8 +88,12 @@ impl Steady {
         let bottom = around.depth.map(|d| d + around.tide);
         let mut waves = Vec::new();
         for sea in [&env.sea, &env.added_sea].into_iter().flatten().filter(|s| s.height > 0.0) {
-            let (cos, sin) = windlass_base::geometry::unit_vector(sea.direction);
-            waves.push((Vector3::new(-cos, -sin, 0.0), Arc::new(WaveEnergies::new(model, env, sea)?)));
+            let whole = WaveEnergies::new(model, env, sea)?;
+            // a regular wave has one direction
+            let exponent = env.spreading.filter(|_| !is_regular(sea)).unwrap_or(spreading::LONG_CRESTED);
+            let towards = spreading::equal_shares(SPREAD_PARTS, sea.direction, exponent);
+            let part = Arc::new(whole.scaled(1.0 / towards.len() as f64));
+            waves.extend(towards.into_iter().map(|[x, y]| (Vector3::new(x, y, 0.0), Arc::clone(&part))));
         }
         for train in given_trains(model, env)? {
             for (direction, energies) in WaveEnergies::by_direction(&train.waves) {

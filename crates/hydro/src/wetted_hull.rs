@@ -13,6 +13,8 @@ pub(crate) type Polygon = Vec<Vector3<f64>>;
 
 /// Halves whose moments agree to this share are mirror images.
 const MIRROR_SHARE: f64 = 1e-7;
+/// Nearer to the water level than this share of the hull a corner lies in it: slivers of panels between would be worse than what they add.
+const WATERLINE_SHARE: f64 = 2e-5;
 /// Nearer to a plane than this share of the hull a corner lies in it.
 const PLANE_SHARE: f64 = 1e-9;
 
@@ -176,6 +178,24 @@ impl WettedHull {
         self.polygons.iter().flatten().fold(0.0, |most: f64, at| most.max(-at.z))
     }
 
+    /// Takes it as standing on the bottom of water of a depth (m) where faces of it lie there, to `room` (m): there is no water under them, and they are
+    /// left out. Whether it stands.
+    pub fn stand_on_bottom(&mut self, depth: f64, room: f64) -> bool {
+        let is_low = |at: &Vector3<f64>| (at.z + depth).abs() <= room;
+        let count = self.polygons.len();
+        self.polygons.retain(|face| !face.iter().all(is_low));
+        if self.polygons.len() == count {
+            return false;
+        }
+        for at in self.polygons.iter_mut().flatten().filter(|at| is_low(at)) {
+            at.z = -depth;
+        }
+        self.area = self.polygons.iter().map(|face| area_vector(face).norm()).sum();
+        let extent = self.polygons.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
+        self.refined = sharp_edges(&self.polygons, PLANE_SHARE * extent);
+        true
+    }
+
     /// How many faces it has: of own panels their number.
     pub fn face_count(&self) -> usize {
         self.polygons.len()
@@ -228,9 +248,12 @@ impl FacedHull {
         let tilt = Rotation3::from_axis_angle(&Vector3::z_axis(), -heading).matrix() * pose.axes;
         let origin_height = pose.origin.z - level;
         let place = |p: &Vector3<f64>| tilt * p + Vector3::new(0.0, 0.0, origin_height);
-        let placed: Vec<Polygon> = self.polygons.iter().map(|face| face.iter().map(place).collect()).collect();
+        let mut placed: Vec<Polygon> = self.polygons.iter().map(|face| face.iter().map(place).collect()).collect();
         let extent = placed.iter().flatten().fold(0.0_f64, |most, p| most.max(p.amax()));
         let room = PLANE_SHARE * extent;
+        for at in placed.iter_mut().flatten().filter(|at| at.z.abs() < WATERLINE_SHARE * extent) {
+            at.z = 0.0;
+        }
         // what lies in the surface itself is dry
         let wet = |face: &&Polygon| face.iter().any(|p| p.z < -room);
         let polygons: Vec<Polygon> =
@@ -392,6 +415,17 @@ mod tests {
             normal.dot(&(middle - Vector3::new(0.0, 0.0, -1.5))) > 0.0
         });
         assert!(outward);
+    }
+
+    #[test]
+    fn box_on_the_bottom_has_no_panels_below() {
+        // two sides of 40 x 3 m and two of 10 x 3 m are left, refined at the waterline alone
+        let mut hull = box_hull([-20.0, -5.0, 0.0], [20.0, 5.0, 8.0], [0.0, 0.0, -3.0]);
+        assert!(!hull.stand_on_bottom(3.1, 0.003));
+        assert!(hull.stand_on_bottom(3.001, 0.003));
+        assert!((hull.area - 100.0 * 3.001).abs() < 1e-9 && (hull.draught() - 3.001).abs() < 1e-12);
+        assert!(hull.refined.iter().all(|sides| sides.iter().filter(|is| **is).count() == 1 + 2));
+        assert!((hull.volume - 1200.0).abs() < 1e-9);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! What a hydrodynamic database holds of one body: data only; the physics is in `hydro::database`.
 
-use crate::{Body, LoadKind, Model};
+use crate::{Body, LoadKind, Mass, Model};
 use nalgebra::{Complex, Matrix6, Vector3};
 use std::sync::Arc;
+use windlass_base::choice::{Choice, Dof};
 use windlass_base::span::Span;
 
 /// Share by which the depth of a database may differ from that of the environment.
@@ -19,7 +20,8 @@ pub type Amplitudes = [Complex<f64>; 6];
 /// **Conventions**, to which every format is converted when it is read. Axes are those of the body, SI, radians. The wave is
 /// `zeta = a cos(w t) = Re(a exp(-i w t))` at the reference point, of real amplitude a (m); what it causes is
 /// `F(t) = Re(X a exp(-i w t))`, so a phase lag e is `X = |X| exp(i e)`. Headings are the direction the waves travel TOWARD, from the
-/// body's x axis toward its y axis. A radiated force is `-A(w) acceleration - B(w) velocity`.
+/// body's x axis toward its y axis. A radiated force is `-A(w) acceleration - B(w) velocity`. Matrices and forces are along axes that are turned
+/// by the heading of the body alone, z up: a trim or heel of the body does not tilt them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Database {
     /// What it was read from, in words.
@@ -56,6 +58,8 @@ pub struct Database {
     pub depth: Option<f64>,
     /// Mass or displaced mass of the body as the source gives it (kg).
     pub mass: Option<f64>,
+    /// How the body floated; none of a source that does not tell.
+    pub stance: Option<Stance>,
     /// The number of its body among those of its source, from 0.
     pub index: usize,
     /// Radiation of the other bodies of its source, as it acts on this one.
@@ -66,6 +70,23 @@ pub struct Database {
     pub panels: Option<PanelSizes>,
     /// What the reader noticed: asymmetry, negative damping, gaps.
     pub remarks: Vec<String>,
+}
+
+/// How a body floats.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Height of its origin over the water level (m).
+    pub height: f64,
+    /// Up, in the axes of the body.
+    pub up: Vector3<f64>,
+}
+
+impl Stance {
+    /// That of a body in water of a level (m).
+    pub fn of(body: &Body, level: f64) -> Self {
+        let turned = body.position.rotation();
+        Stance { height: body.position.shift[2] - level, up: turned.matrix().transpose() * Vector3::z() }
+    }
 }
 
 /// How large panels are.
@@ -173,6 +194,11 @@ pub struct AttachedDatabase {
 /// Share of the distance, and angle (rad), by which bodies may stand otherwise than their source had them.
 const PLACE_SHARE: f64 = 0.05;
 const PLACE_ANGLE: f64 = 0.05;
+/// The largest difference of the mass of a body from that of its database that is let pass.
+const MAX_MASS_DIFFERENCE: f64 = 0.2;
+/// Over the side of a cube of its displacement: how much deeper or higher a body may float than its database had it. By how much it may be turned (rad).
+const HEIGHT_SHARE: f64 = 0.01;
+const STANCE_ANGLE: f64 = 0.02;
 
 impl Model {
     /// The interactions of databases whose two bodies are both in the model with databases of one source, in the order of the bodies.
@@ -236,6 +262,55 @@ impl Model {
         list
     }
 
+    /// How bodies that move differ from those that their databases were computed for.
+    pub fn stance_warnings(&self) -> Vec<String> {
+        self.bodies.values().flat_map(|body| self.stance_warnings_of(body)).collect()
+    }
+
+    /// How a body that moves differs from the one that its database was computed for: its mass, and how it floats.
+    pub fn stance_warnings_of(&self, body: &Body) -> Vec<String> {
+        let mut list = Vec::new();
+        let Some(data) = body.database.as_ref().map(|attached| attached.data.as_ref()) else { return list };
+        if body.ignored.len() >= Dof::ALL.len() {
+            return list;
+        }
+        let mass = Mass::from_parts(self.parts_of(body), self.defaults.gravity).mass;
+        let computed = data.mass.filter(|computed| mass > 0.0 && *computed > 0.0);
+        // contents of tanks are not among the weights
+        let has_tanks = self.parts_of(body).any(|part| part.pieces.iter().any(|piece| piece.compartment.is_some()));
+        if let Some(computed) =
+            computed.filter(|computed| !has_tanks && (computed / mass - 1.0).abs() > MAX_MASS_DIFFERENCE)
+        {
+            let text = format!(
+                "{} has {:.4} times the mass that {} was computed for",
+                body.name,
+                mass / computed,
+                data.source
+            );
+            list.push(text);
+        }
+        let Some(stance) = data.stance else { return list };
+        let now = Stance::of(body, self.surroundings().tide);
+        let size = (computed.unwrap_or(mass) / data.density.max(f64::MIN_POSITIVE)).cbrt();
+        let (sunk, angle) = (stance.height - now.height, stance.up.angle(&now.up));
+        let mut parts = Vec::new();
+        if sunk.abs() > HEIGHT_SHARE * size {
+            parts.push(format!("{:.2} m {}", sunk.abs(), if sunk > 0.0 { "below" } else { "above" }));
+        }
+        if angle > STANCE_ANGLE {
+            parts.push(format!("turned by {:.1} degrees of trim and heel from", angle.to_degrees()));
+        }
+        if !parts.is_empty() {
+            list.push(format!(
+                "{} is {} where {} had it: its coefficients are of another hull under water",
+                body.name,
+                parts.join(" and "),
+                data.source
+            ));
+        }
+        list
+    }
+
     /// What the database of a body lacks in the environment in force, or does not fit: each is in every report. Waves without drift
     /// coefficients make no drift force, unless `#DRIFT` gives it or `-DRIFT NONE` waives it; coefficients of another depth of water are
     /// those of other waves where these feel the bottom.
@@ -255,9 +330,10 @@ impl Model {
             ));
         }
         let around = self.surroundings();
+        let here = around.depth.map(|depth| depth + around.tide);
         let lowest = data.frequencies.first().copied().unwrap_or(f64::INFINITY);
-        let shallower = [data.depth, around.depth].into_iter().flatten().fold(f64::INFINITY, f64::min);
-        let differ = match (data.depth, around.depth) {
+        let shallower = [data.depth, here].into_iter().flatten().fold(f64::INFINITY, f64::min);
+        let differ = match (data.depth, here) {
             (Some(one), Some(other)) => (one - other).abs() > DEPTH_SHARE * other.abs(),
             (one, other) => one.is_some() != other.is_some(),
         };
@@ -268,7 +344,7 @@ impl Model {
                 body.name,
                 data.source,
                 depth(data.depth),
-                depth(around.depth)
+                depth(here)
             ));
         }
         list.extend(self.interaction_caveats(body, data));

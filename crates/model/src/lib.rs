@@ -65,6 +65,7 @@ pub use connector::{Anchor, Connector, Tug};
 pub use curve::{Curve, CurveKind};
 pub use database::{
     Amplitudes, AttachedDatabase, Database, DriftMethod, DriftTable, InteractingBodies, Interaction, PanelSizes, Qtf,
+    Stance,
 };
 pub use defaults::{Coordinates, DefaultMaterial, Defaults, RopeStiffness, WaveDefaults};
 pub use draft_mark::DraftMark;

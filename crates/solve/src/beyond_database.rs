@@ -1,4 +1,4 @@
-//! Waves at periods that a database does not have: what stands for them is said.
+//! Waves at periods that a database does not have, and bodies that float otherwise than their databases had them: what stands for them is said.
 
 use std::f64::consts::TAU;
 use windlass_hydro::steady::Steady;
@@ -59,7 +59,7 @@ fn sentence(of: &str, range: [f64; 2], parts: [Option<String>; 2]) -> Option<Str
     (!parts.is_empty()).then(|| format!("{of} has periods of {}: {}", periods(range), parts.join("; ")))
 }
 
-/// Warnings of the sea of a model: bodies whose databases lack the periods of much of its energy.
+/// Warnings of the sea of a model: bodies that are not those of their databases, and whose databases lack the periods of much of its energy.
 ///
 /// # Errors
 /// Waves that cannot be computed.
@@ -74,7 +74,7 @@ pub fn warnings_of_sea(model: &Model) -> Result<Vec<String>, ClassError> {
         ];
         sentence(&format!("the database of {}", body.name), range, parts)
     };
-    Ok(model.bodies.values().filter_map(of_body).collect())
+    Ok(model.stance_warnings().into_iter().chain(model.bodies.values().filter_map(of_body)).collect())
 }
 
 /// The same of the mean drift that databases give.
@@ -94,10 +94,12 @@ pub fn warnings_of_mean_drift(model: &Model) -> Result<Vec<String>, ClassError> 
         ];
         sentence(&format!("the mean drift of {} in its database", body.name), range, parts)
     };
-    Ok(model.bodies.values().filter_map(of_body).collect())
+    // in calm water no database acts
+    let of_bodies = if sea.waves.is_empty() { Vec::new() } else { model.stance_warnings() };
+    Ok(of_bodies.into_iter().chain(model.bodies.values().filter_map(of_body)).collect())
 }
 
-/// Warnings of frequencies that are asked for (rad/s): bodies whose databases end before them.
+/// Warnings of frequencies that are asked for (rad/s): bodies that are not those of their databases, and whose databases end before them.
 pub fn warnings_of_frequencies(model: &Model, frequencies: &[f64]) -> Vec<String> {
     let of_body = |body: &Body| {
         let range = range(body)?;
@@ -116,5 +118,5 @@ pub fn warnings_of_frequencies(model: &Model, frequencies: &[f64]) -> Vec<String
             periods(range)
         ))
     };
-    model.bodies.values().filter_map(of_body).collect()
+    model.stance_warnings().into_iter().chain(model.bodies.values().filter_map(of_body)).collect()
 }

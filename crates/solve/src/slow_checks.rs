@@ -8,6 +8,10 @@ use windlass_model::{Body, DriftMethod, LoadKind, Model};
 
 /// Damping over critical below which a slow mode is named: its motion by slow drift goes as the inverse root of it.
 const LITTLE_DAMPING: f64 = 0.03;
+/// A period beyond which nothing holds a mode but rounding (s).
+const LONGEST_PERIOD: f64 = 1e4;
+/// Degrees of freedom that slow drift moves.
+const DRIFTING: [&str; 3] = ["X", "Y", "RZ"];
 /// Degrees of freedom up to which modes are found.
 const MAX_DOFS: usize = 60;
 
@@ -37,8 +41,8 @@ pub fn light_slow_modes(run: &Run) -> Vec<LightMode> {
         .into_iter()
         .filter_map(|mode| {
             let (period, ratio) = (mode.mode.period?, mode.damping?);
-            let is_light =
-                period > slowest_wave && ratio < LITTLE_DAMPING && drifting.contains(&mode.mode.most.0.as_str());
+            let is_slow = period > slowest_wave && period < LONGEST_PERIOD && DRIFTING.contains(&mode.mode.most.1);
+            let is_light = is_slow && ratio < LITTLE_DAMPING && drifting.contains(&mode.mode.most.0.as_str());
             is_light.then_some(LightMode { most: mode.mode.most, period, ratio })
         })
         .collect()

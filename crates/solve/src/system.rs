@@ -13,7 +13,7 @@ use windlass_base::geometry::Place;
 use windlass_base::pose::{Pose, Six};
 use windlass_hydro::database::interaction::{GatheredInteraction, InteractionLoad, gather_interactions};
 use windlass_hydro::sea::Sea;
-use windlass_hydro::{Category, Floating, Load, ambient, move_stiffness, move_wrench, turning};
+use windlass_hydro::{Category, Floating, Load, ambient, heading_axes, move_stiffness, move_wrench, turning};
 use windlass_model::{
     Ambient, Body, ClassError, ConnectorResponse, End, Mass, Model, Situation, SolveKind, SolverCache, Surroundings,
 };
@@ -165,11 +165,12 @@ impl BodyInteraction {
     }
 }
 
-/// A matrix between two bodies, rows in the axes of one and columns in those of the other, in global axes.
-pub(super) fn between_poses(matrix: &Matrix6<f64>, on: &Pose, by: &Pose) -> Matrix6<f64> {
+/// A matrix of a database between two bodies, rows in the axes of the heading of one and columns in those of the other, in global axes.
+pub(super) fn between_headings(matrix: &Matrix6<f64>, on: &Pose, by: &Pose) -> Matrix6<f64> {
+    let (on, by) = (heading_axes(on), heading_axes(by));
     let mut turned = Matrix6::zeros();
     for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-        let block = on.axes * matrix.fixed_view::<3, 3>(row, column) * by.axes.transpose();
+        let block = on * matrix.fixed_view::<3, 3>(row, column) * by.transpose();
         turned.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
     }
     turned
@@ -436,7 +437,7 @@ impl System {
         for between in self.interactions.iter().filter(|between| between.load.is_none()) {
             let (Some(on), Some(by)) = (poses.get(between.on), poses.get(between.by)) else { continue };
             let mut block = matrix.fixed_view_mut::<6, 6>(6 * between.on, 6 * between.by);
-            block += between_poses(&between.infinite, on, by);
+            block += between_headings(&between.infinite, on, by);
         }
         matrix
     }

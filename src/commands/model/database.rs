@@ -30,8 +30,6 @@ pub static DATABASE: Command = Command { spec: &SPEC, edits: false, run };
 
 /// Endings of the files of WAMIT that are read.
 const WAMIT_ENDINGS: [&str; 9] = ["1", "2", "3", "4", "8", "9", "12d", "12s", "hst"];
-/// The largest difference of the mass of a body from that of its database that is let pass.
-const MAX_MASS_DIFFERENCE: f64 = 0.2;
 /// The largest added mass of a translation in long waves over the mass of the body: generous on both sides, a slender ship along its
 /// length being let pass by its heave and a plate under water by its size.
 const ADDED: RangeInclusive<f64> = 0.02..=50.0;
@@ -245,17 +243,13 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
     if radiation.as_ref().is_some_and(|radiation| radiation.has_one_frequency) {
         job.remark(format!("{}: one frequency serves motions at it; runs in time need more", data.source), source);
     } else if let Some(radiation) = radiation {
-        let (text, is_warning) = radiation.quality.sentence();
+        let (text, is_warning) = radiation.quality.sentence(data.infinite.is_some());
         let text = format!("{}: {text}", data.source);
         match (is_warning, data.infinite) {
             (true, _) => job.warn(text, source),
             (false, None) => job.remark(text, source),
             (false, Some(_)) => {}
         }
-    }
-    if let Some(other) = data.mass.filter(|m| mass > 0.0 && (m / mass - 1.0).abs() > MAX_MASS_DIFFERENCE) {
-        let text = format!("{name} has {:.4} times the mass that {} was computed for", mass / other, data.source);
-        job.warn(text, source);
     }
     if let Some(text) = unlike(data, mass) {
         job.warn(format!("{name}: {text}"), source);
@@ -266,6 +260,9 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         job.remark(format!("the database of {name} is replaced"), span);
     }
     hydrodynamics::settle_pressure(&mut job.model, &name);
+    for text in job.model.bodies.get(&key).map(|body| job.model.stance_warnings_of(body)).unwrap_or_default() {
+        job.warn(text, source);
+    }
     // of bodies that are given one by one the others may follow: solves say what is left of it
     let alone = |body: &&Body| body.database.as_ref().is_some_and(|made| made.data.interactions.is_empty());
     let body = job.model.bodies.get(&key).filter(alone);

@@ -192,7 +192,8 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
              irregular frequencies away; a moonpool stays open. -LID damps the surface of a rectangle of it, or of a gap between bodies, by dphi/dz = w2/g (1 + i EPSILON) phi: \
              motions of the water that potential flow overrates fall, and the report has the value. -WITH solves several bodies together: each gets a database with the \
              radiation of the others, which acts in FREQ_RESPONSE, &EQUI and TDOM while they stand near where they stood; headings are those of the first. The result is the database of the body, as DATABASE reads one: its pieces are taken as -DIFTYPE 3DDIF, and it acts in \
-             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. Mean drift is found with the motions that mass, stiffness, moorings and damping give the bodies now: of a body alone by the waves far away (G_MDRIFT finds it anew \
+             FREQ_RESPONSE, &EQUI and TDOM, with the added mass at infinite frequency. A hull with a flat face on the bottom stands there: it has no panels below. Matrices and forces are along upright axes of the heading, also of a body that is trimmed or heeled. \
+             Mean drift is found with the motions that mass, stiffness, moorings and damping give the bodies now: of a body alone by the waves far away (G_MDRIFT finds it anew \
              after these have changed), of several by a control surface around each; where none fits around one of them it has what the drifts of the others leave of that of the waves far \
              away, which is said. The report has how far the drift by the pressure on the hull is from it. -MEAN_DRIFT NO leaves it out. Roll has the damping of radiated waves \
              alone: #DAMP adds what eddies take. Exciting forces are those of Haskind's relation; the report has the panels of a wave length and the largest difference of the forces by pressure from \

@@ -9,7 +9,6 @@ use windlass_base::diagnostic::Outcome;
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_diffraction::MeshQuality;
 use windlass_hydro::database::checks::MODES;
 use windlass_model::{Amplitudes, Database};
 
@@ -110,8 +109,7 @@ pub fn check(
 /// The panels of each body at their worst.
 fn mesh_table(job: &mut Job, meshed: &MeshedBodies, span: Span) -> Table {
     let shortest = meshed.shortest_wave();
-    let rows: Vec<(String, MeshQuality, usize)> =
-        meshed.meshes().map(|(body, mesh)| (body.name.clone(), MeshQuality::new(mesh), mesh.hull().len())).collect();
+    let rows = meshed.qualities();
     for (name, quality, _) in &rows {
         let mut warn = |text: String| job.warn(format!("{name}: {text}"), span);
         if !quality.turned.is_empty() {

@@ -12,15 +12,17 @@ use nalgebra::{Complex, DMatrix, Matrix6, Rotation3, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use windlass_base::diagnostic::{Diagnostic, Outcome, Severity};
+use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
     ControlSurface, DiffractionError, DiffractionProblem, FarFieldDrift, FrequencyForces, MOTIONS, WaveSolution,
 };
 use windlass_hydro::database::DriftTable;
+use windlass_hydro::in_pose;
 use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
-use windlass_model::{Database, LoadKind, Model};
+use windlass_model::{AttachedDatabase, Database, DriftMethod, LoadKind, Model};
 use windlass_solve::SolveError;
 use windlass_solve::frequency::{LinearSystem, Motions};
 
@@ -72,7 +74,8 @@ impl DriftSource {
     }
 }
 
-/// The motions of bodies that are meshed; none where drift is not asked for.
+/// The motions of bodies that are meshed; none where drift is not asked for. Damping of roll in per cent of critical is that with the added mass of the
+/// databases that there are.
 pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSource {
     if !is_asked {
         return DriftSource::None("-MEAN_DRIFT NO".into());
@@ -81,23 +84,81 @@ pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSour
     if meshed.bodies.iter().all(is_held) {
         return DriftSource::Fixed;
     }
-    match without_databases(model, meshed) {
+    match without_databases(model.clone(), meshed) {
         Ok(linear) => DriftSource::Motions(Box::new(linear)),
         Err(error) => DriftSource::None(said(error)),
     }
 }
 
-/// The equations of motion without the databases of bodies that are meshed.
-fn without_databases(model: &Model, meshed: &MeshedBodies) -> Result<LinearSystem, SolveError> {
-    let mut alone = model.clone();
-    // by the databases that there are
-    fix_critical_damping(&mut alone).map_err(SolveError::new)?;
+/// As [`source`] before the bodies are solved: whatever databases they have, so that the same is computed again. [`settle_critical_damping`] follows.
+pub fn first_source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSource {
+    let mut bare = model.clone();
+    remove_databases(&mut bare, meshed);
+    source(&bare, meshed, is_asked)
+}
+
+/// What is wrong with the place that motions are taken about, as that bodies are not at rest there.
+pub fn place_warnings(source: &DriftSource) -> Vec<String> {
+    let DriftSource::Motions(linear) = source else { return Vec::new() };
+    let warnings = linear.notes.iter().filter(|note| note.severity == Severity::Warning);
+    warnings.map(|note| format!("mean drift: {}", note.text)).collect()
+}
+
+/// The same motions with damping of roll in per cent of critical by the added mass that was found.
+pub fn settle_critical_damping<'a>(
+    model: &Model,
+    meshed: &MeshedBodies,
+    forces: impl Iterator<Item = &'a FrequencyForces>,
+    source: &mut DriftSource,
+) {
+    let is_critical = |kind: &LoadKind| matches!(kind, LoadKind::RollDamping(given) if given.critical > 0.0);
+    if !matches!(source, DriftSource::Motions(_)) || !model.loads.iter().any(|load| is_critical(&load.kind)) {
+        return;
+    }
+    let forces: Vec<&FrequencyForces> = forces.collect();
+    let mut with_added_mass = model.clone();
+    for (i, body) in meshed.bodies.iter().enumerate() {
+        let turn = *Rotation3::from_axis_angle(&Vector3::z_axis(), -body.turn).matrix();
+        let own = |forces: &&FrequencyForces| {
+            let block = forces.added_mass.fixed_view::<MOTIONS, MOTIONS>(MOTIONS * i, MOTIONS * i).into_owned();
+            in_pose(&block, &Pose { axes: turn, ..Pose::default() })
+        };
+        let data = Database {
+            frequencies: meshed.frequencies.clone(),
+            added_mass: forces.iter().map(own).collect(),
+            ..Database::default()
+        };
+        if let Some(body) = with_added_mass.bodies.get_mut(&body.key) {
+            body.database = Some(AttachedDatabase {
+                data: Arc::new(data),
+                at: [0.0; 3],
+                memory: None,
+                drift: DriftMethod::None,
+                drift_damping: None,
+                hydrostatics: false,
+                span: body.span,
+            });
+        }
+    }
+    *source = match without_databases(with_added_mass, meshed) {
+        Ok(linear) => DriftSource::Motions(Box::new(linear)),
+        Err(error) => DriftSource::None(said(error)),
+    };
+}
+
+/// The equations of motion without the databases of bodies that are meshed, but for what damping of roll in per cent of critical takes of their added mass.
+fn without_databases(mut model: Model, meshed: &MeshedBodies) -> Result<LinearSystem, SolveError> {
+    fix_critical_damping(&mut model).map_err(SolveError::new)?;
+    remove_databases(&mut model, meshed);
+    LinearSystem::new(&model)
+}
+
+fn remove_databases(model: &mut Model, meshed: &MeshedBodies) {
     for meshed in &meshed.bodies {
-        if let Some(body) = alone.bodies.get_mut(&meshed.key) {
+        if let Some(body) = model.bodies.get_mut(&meshed.key) {
             body.database = None;
         }
     }
-    LinearSystem::new(&alone)
 }
 
 /// What of a source the drift depends on: all of stiffness, mass, damping and other loads of waves at the frequencies.
@@ -140,7 +201,9 @@ pub fn surfaces(meshed: &MeshedBodies, problem: &DiffractionProblem) -> Result<V
         .collect();
     if without.len() > 1 {
         let names = without.join(", ");
-        return Err(format!("no upright box fits around each of {names} that leaves the other bodies outside"));
+        return Err(format!(
+            "no upright box fits around each of {names} that leaves the other bodies outside, a tenth of the size of the panels from all hulls at least"
+        ));
     }
     Ok(made)
 }
@@ -346,7 +409,7 @@ const NO_ROLL_DAMPING: f64 = 2e-3;
 const LIGHT_ROLL_DAMPING: f64 = 0.05;
 
 /// The warnings of bodies whose roll at its natural period has the damping of radiated waves alone; none where that period is not among the
-/// frequencies, or where damping is given that grows with the rate of roll.
+/// frequencies.
 pub fn roll_warnings(
     model: &Model,
     source: &DriftSource,
@@ -357,7 +420,7 @@ pub fn roll_warnings(
     let linear = match source {
         DriftSource::Motions(linear) => linear.as_ref(),
         // what has no equations of motion is said where they are needed
-        _ => match without_databases(model, meshed) {
+        _ => match without_databases(model.clone(), meshed) {
             Ok(linear) => {
                 made = linear;
                 &made
@@ -365,8 +428,8 @@ pub fn roll_warnings(
             Err(_) => return Vec::new(),
         },
     };
-    let bodies = meshed.bodies.iter().zip(databases).filter(|(body, _)| !has_quadratic_roll_damping(model, body));
-    bodies.filter_map(|(body, data)| roll_warning(linear, meshed, (body, data))).collect()
+    let warning = |(body, data)| roll_warning(linear, meshed, (body, data), has_quadratic_roll_damping(model, body));
+    meshed.bodies.iter().zip(databases).filter_map(warning).collect()
 }
 
 fn has_quadratic_roll_damping(model: &Model, body: &MeshedBody) -> bool {
@@ -387,6 +450,7 @@ fn roll_warning(
     linear: &LinearSystem,
     meshed: &MeshedBodies,
     (body, data): (&MeshedBody, &Database),
+    is_quadratic: bool,
 ) -> Option<String> {
     const ROLL: usize = 3;
     let node = linear.system.nodes.iter().position(|node| node.key == body.key)?;
@@ -418,7 +482,17 @@ fn roll_warning(
     let radiated = between(low[2], high[2]);
     let critical = 2.0 * stiffness / frequency;
     let shares = [given / critical, (given + radiated) / critical];
-    (shares[0] < NO_ROLL_DAMPING && shares[1] < LIGHT_ROLL_DAMPING).then(|| {
+    let is_light = shares[0] < NO_ROLL_DAMPING && shares[1] < LIGHT_ROLL_DAMPING;
+    if is_light && is_quadratic {
+        return Some(format!(
+            "{}: the damping of roll that grows with its rate is none of motions in waves of unit amplitude, as of RAO and of its mean drift: at its natural \
+             period of {:.2} s they have {:.2} % of critical, and are too large; -LINEAR or -CRITICAL of #ROLL_DAMPING acts in them",
+            body.name,
+            TAU / frequency,
+            100.0 * shares[1]
+        ));
+    }
+    is_light.then(|| {
         format!(
             "{}: roll has the damping of radiated waves alone, {:.2} % of critical at its natural period of {:.2} s, where it is too large: \
              #ROLL_DAMPING or #TANAKA gives what eddies take",

@@ -7,20 +7,22 @@ use crate::commands::model::hydrodynamics::settle_pressure;
 use crate::commands::model::panel_check;
 use crate::commands::model::panel_drift::{self, DriftSource, POOR_AGREEMENT};
 use crate::commands::{Job, count};
-use crate::report::pressure_file::{FileBody, KEY, NO_DRIFT, PressureFile};
+use crate::report::pressure_file::{BodyDrift, FileBody, KEY, NO_DRIFT, PressureFile};
 use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::{Rotation3, Vector3};
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use windlass_base::choice::{Choice, Dof};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
     DampedPatch, DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh,
-    MirrorPlanes, Water,
+    MeshQuality, MirrorPlanes, Water, WaveSolution,
 };
 use windlass_hydro::database::checks::MODES;
 use windlass_hydro::database::radiation::{OgilvieQuality, Radiation};
@@ -52,7 +54,7 @@ const USUAL_PANELS_A_WAVE: f64 = 16.0;
 const USUAL_FREQUENCIES: [f64; 3] = [0.1, 0.05, 2.0];
 /// Exciting forces by pressure and by Haskind's relation that differ by more than this share of the largest are warned of.
 const POOR_EXCITATION: f64 = 0.05;
-/// A bottom nearer to the keel than this share of the draught is at it: its image lies on the panels.
+/// A bottom nearer to the keel than this share of the draught is at it: its image would lie on the panels.
 const LEAST_CLEARANCE: f64 = 1e-3;
 const HULL_HELP: &str =
     "BLOCK, PGEN, PANEL or a mesh file give closed pieces; &INSTATE -LOCATE or &EQUI puts the body at its draught";
@@ -103,6 +105,8 @@ pub struct MeshedBody {
     has_lid: bool,
     /// Whether its panels are smaller at edges.
     is_refined: bool,
+    /// Whether it stands on the bottom.
+    stands: bool,
     /// Panels of its mesh, of the part that is solved.
     panels: usize,
     lid_panels: usize,
@@ -154,23 +158,30 @@ impl MeshedBodies {
     /// As [`MeshedBodies::new`], with so many bytes of memory.
     fn within(model: &Model, names: &[String], request: &PanelRequest, available: u64) -> Outcome<Self> {
         let around = model.surroundings();
-        let depth = request.depth.or(around.depth);
+        let depth = request.depth.or(around.depth.map(|depth| depth + around.tide));
         let water = Water { density: around.water_density, gravity: around.gravity, depth };
         let wrong = |text: String| Diagnostic::error(text, request.span);
         if let Some(fault) = fault_of_lids(&request.lids) {
             return Err(wrong(fault));
         }
         let mut hulls: Vec<(String, &Body, WettedHull)> = Vec::new();
+        let mut standing = BTreeSet::new();
         for name in names {
             let key = Model::key(name);
             let Some(body) = model.bodies.get(&key) else { continue };
-            let hull =
+            let mut hull =
                 WettedHull::new(model, body, around.tide).map_err(|error| wrong(error.to_string()).help(HULL_HELP))?;
             let draught = hull.draught();
-            if let Some(depth) = depth.filter(|depth| *depth <= draught * (1.0 + LEAST_CLEARANCE)) {
-                let text = format!("{name}: the water is {depth} m deep, and the hull reaches down to {draught:.4} m");
-                return Err(wrong(text)
-                    .help("-DEPTH gives another depth; &INSTATE -LOCATE or &EQUI puts the body where it floats"));
+            let near = draught * LEAST_CLEARANCE;
+            if let Some(depth) = depth.filter(|depth| *depth <= draught + near) {
+                if depth < draught - near || !hull.stand_on_bottom(depth, near) {
+                    let text =
+                        format!("{name}: the water is {depth} m deep, and the hull reaches down to {draught:.4} m");
+                    return Err(wrong(text).help(
+                        "-DEPTH gives another depth; &INSTATE -LOCATE or &EQUI puts the body where it floats, or where a flat face of it stands on the bottom",
+                    ));
+                }
+                standing.insert(key.clone());
             }
             hulls.push((key, body, hull));
         }
@@ -246,11 +257,25 @@ impl MeshedBodies {
             // strips of the lid lie along the body
             let (mesh, has_lid) = plain.with_lid().map_or((plain, false), |mesh| (mesh, true));
             let mesh = if alone { mesh } else { mesh.moved(turn, shift).map_err(open)? };
-            let volume = mesh.volumes()[2].abs() * images;
+            let stands = standing.contains(&key);
+            // without panels on the bottom that by heights is none
+            let volume = mesh.volumes()[if stands { 0 } else { 2 }].abs() * images;
             let origin = shift + Vector3::new(0.0, 0.0, hull.origin_height);
             let (panels, lid_panels) = (mesh.hull().len(), mesh.lid().len());
             let (name, is_refined) = (body.name.clone(), hull.is_refined_by(sizes));
-            bodies.push(MeshedBody { name, key, hull, origin, turn, has_lid, is_refined, panels, lid_panels, volume });
+            bodies.push(MeshedBody {
+                name,
+                key,
+                hull,
+                origin,
+                turn,
+                has_lid,
+                is_refined,
+                stands,
+                panels,
+                lid_panels,
+                volume,
+            });
             parts.push(DiffractionBody { mesh, origin });
         }
         let count = |of: &dyn Fn(&MeshedBody) -> usize| bodies.iter().map(of).sum::<usize>() as f64;
@@ -292,6 +317,15 @@ impl MeshedBodies {
         self.bodies.iter().zip(self.parts.iter().map(|part| &part.mesh))
     }
 
+    /// How good the panels of each body are, with its name and their number.
+    pub fn qualities(&self) -> Vec<(String, MeshQuality, usize)> {
+        let of = |(body, mesh): (&MeshedBody, &HullMesh)| {
+            let bottom = self.water.depth.filter(|_| body.stands);
+            (body.name.clone(), MeshQuality::new(mesh, bottom), mesh.hull().len())
+        };
+        self.meshes().map(of).collect()
+    }
+
     /// The panels of all hulls, with those of the images.
     pub fn panel_count(&self) -> usize {
         self.bodies.iter().map(|body| body.panels).sum::<usize>() * self.mirrors.images().len()
@@ -315,7 +349,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 5));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 6));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size, self.edge_share].into_iter());
@@ -582,7 +616,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     let meshed = MeshedBodies::new(&job.model, names, request)?;
     let all = meshed.names();
     let wrong = |text: String| Diagnostic::error(format!("{all}: {text}"), span);
-    let mut drift = panel_drift::source(&job.model, &meshed, request.has_drift);
+    let mut drift = panel_drift::first_source(&job.model, &meshed, request.has_drift);
     let key = meshed.key(&request.headings, &drift);
     let file = format!("{}.nc", names.join("_"));
     let own = kept_file(job, &file, &key).map(|bytes| (job.output.folder.folder.join(&file), bytes));
@@ -622,6 +656,10 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         };
         database::attach(job, &body.name, attached, span);
         settle_pressure(&mut job.model, &body.name);
+    }
+    warn_of_standing(job, &meshed, span);
+    for text in panel_drift::place_warnings(&drift) {
+        job.warn(text, span);
     }
     warn_of_quality(job, &meshed, &quality, span);
     for text in panel_drift::roll_warnings(&job.model, &drift, &meshed, &made) {
@@ -689,24 +727,34 @@ fn solve(
             Err(why) => *drift = DriftSource::None(why),
         }
     }
-    let mut made: Vec<FrequencyForces> = Vec::new();
-    let (mut drifts, mut energy) = (Vec::new(), Vec::new());
-    let bar = progress_bar(meshed.frequencies.len());
-    for frequency in &meshed.frequencies {
+    let (mut solved, mut drifts): (Vec<WaveSolution>, Vec<BodyDrift>) = (Vec::new(), Vec::new());
+    let go_on = |bar: &ProgressBar| {
         if job.is_interrupted() {
             bar.finish_and_clear();
             return Err(Diagnostic::error(format!("interrupted: {all} keeps the database it had, if any"), span));
         }
-        let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
-        match panel_drift::of_frequency(drift, meshed, &surfaces, &waves, &request.headings) {
-            Ok(row) => drifts.extend(row),
-            Err(why) => *drift = DriftSource::None(why),
-        }
-        energy.push(waves.energy_difference());
-        made.push(waves.forces);
+        Ok(())
+    };
+    let bar = progress_bar(meshed.frequencies.len());
+    for frequency in &meshed.frequencies {
+        go_on(&bar)?;
+        solved.push(problem.solve_waves(*frequency, &request.headings).map_err(refused)?);
         bar.inc(1);
     }
     bar.finish_and_clear();
+    panel_drift::settle_critical_damping(&job.model, meshed, solved.iter().map(|waves| &waves.forces), drift);
+    let bar = progress_bar(meshed.frequencies.len());
+    for waves in &solved {
+        go_on(&bar)?;
+        match panel_drift::of_frequency(drift, meshed, &surfaces, waves, &request.headings) {
+            Ok(row) => drifts.extend(row),
+            Err(why) => *drift = DriftSource::None(why),
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let energy: Vec<f64> = solved.iter().map(WaveSolution::energy_difference).collect();
+    let made: Vec<FrequencyForces> = solved.into_iter().map(|waves| waves.forces).collect();
     let mut drift_check = None;
     if meshed.bodies.len() == 1 {
         panel_drift::remove_noise(&mut drifts);
@@ -795,6 +843,24 @@ fn take_hull(model: &mut Model, body: &MeshedBody) {
             if body.hull.pieces.contains(&piece.name) && piece.waves == WaveAction::ByForm && piece.member.is_none() {
                 piece.waves = WaveAction::Database;
             }
+        }
+    }
+}
+
+/// Warns of bodies that stand on the bottom and could leave it.
+fn warn_of_standing(job: &mut Job, meshed: &MeshedBodies, span: Span) {
+    for body in meshed.bodies.iter().filter(|body| body.stands) {
+        let ignored = job.model.bodies.get(&body.key).map_or(&[][..], |own| &own.ignored);
+        let free: Vec<&str> =
+            [Dof::Z, Dof::Rx, Dof::Ry].into_iter().filter(|dof| !ignored.contains(dof)).map(Dof::word).collect();
+        if !free.is_empty() {
+            let text = format!(
+                "{} stands on the bottom, and no pressure of waves acts below it: its added mass, damping and wave forces of {} are those of its sides                  alone; -IGNORE {} holds it there",
+                body.name,
+                free.join(", "),
+                free.join(" ")
+            );
+            job.warn(text, span);
         }
     }
 }
@@ -944,6 +1010,9 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
             table = table.fact(&fact("Of These Solved For"), body.panels, Dim::None);
         }
         table = table.fact(&fact("Lid of the Waterplane"), lid, Dim::None);
+        if body.stands {
+            table = table.fact(&fact("Keel"), "on the bottom, without panels there", Dim::None);
+        }
         table = table.fact(&fact("Displaced Volume"), body.hull.volume, Dim::Volume);
         table = table.fact(&fact("By the Panels"), body.volume, Dim::Volume);
         // of one frequency there is none

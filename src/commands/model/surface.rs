@@ -16,11 +16,11 @@ use windlass_base::choice::Choice;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::{Place, Position};
 use windlass_base::span::Span;
-use windlass_base::units::Dim;
+use windlass_base::units::{Dim, METRES_PER_FOOT, UnitSystem};
 use windlass_base::values::Args;
 use windlass_base::values::Noun;
 use windlass_base::wildcard::matches;
-use windlass_hydro::hull::{MeshKind, read_mesh};
+use windlass_hydro::hull::{MeshFile, MeshKind, close_above_waterline, read_mesh};
 use windlass_language::args;
 use windlass_language::name as rule;
 use windlass_language::number::evaluate;
@@ -47,6 +47,8 @@ pub static LIST_BLOCK: Command = Command { spec: &LIST_SPEC, edits: false, run: 
 const fn number(name: &'static str, dim: Dim, help: &'static str) -> ValueSpec {
     ValueSpec::new(name, Kind::Number(dim), help)
 }
+/// Units of length that differ by less than this share are one.
+const SAME_UNIT: f64 = 1e-3;
 const NEW: ValueSpec = ValueSpec::new("NAME", Kind::Name(Noun::New), "name of the piece");
 const NEW_OR_NONE: ValueSpec = NEW.or("PIECE1, PIECE2 ..");
 
@@ -109,7 +111,8 @@ static MESH_SPEC: CommandSpec = CommandSpec {
     ],
     options: &MESH_OPTIONS,
     detail: "MESH NAME FILE reads an STL file (text or binary), a WAMIT GDF file, or a Wavefront OBJ file, complete in one record; \
-             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). MESH and MESH NAME open \
+             its numbers are lengths in the unit of &DIMEN times -SCALE (3.280839895 reads a file in metres where &DIMEN says feet). A mesh whose \
+             open sides all lie at z = 0, as that of a wetted surface, goes on there by upright walls as high as it is deep, with a plane above them. MESH and MESH NAME open \
              a menu up to END_MESH or END, of PANEL records alone, or of VERTEX records and PANELs that name them (&HELP VERTEX).",
     example: "&FILE OPEN M tet.obj\n&FILE WRITE M v 0 0 0\n&FILE WRITE M v 30 0 0\n&FILE WRITE M v 0 30 0\n&FILE WRITE M v 0 0 30\n\
               &FILE WRITE M f 1 3 2\n&FILE WRITE M f 1 2 4\n&FILE WRITE M f 1 4 3\n&FILE WRITE M f 2 3 4\n&FILE CLOSE M\n\
@@ -417,8 +420,16 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
         return Ok(Effect::Done);
     };
     let span = args.position(FILE);
-    let panels = mesh_of(job, args, name, span)?;
+    let MeshFile { mut panels, gravity, .. } = mesh_of(job, args, name, span)?;
     let scale = Dim::Length.to_si(args.option_number(&SCALE).unwrap_or(1.0), job.units);
+    if let Some(text) = gravity.and_then(|gravity| other_unit(gravity, scale, job.units)) {
+        job.warn(format!("{name}: {text}"), span);
+    }
+    if close_above_waterline(&mut panels).is_some() {
+        let text =
+            format!("{name} ends in its waterline, z = 0: upright walls are assumed above it, as high as it is deep");
+        job.remark(text, span);
+    }
     let largest = panels.iter().flatten().flatten().fold(0.0_f64, |most, x| most.max((scale * x).abs()));
     if largest > Dim::Length.most() {
         let text = format!("{name} cannot be used: a coordinate of {largest:e} m is no ship's");
@@ -431,8 +442,21 @@ fn mesh(job: &mut Job, call: &Call) -> Outcome<Effect> {
     whole(job, args, Shape::Panels(scaled).with_displacement(&by))
 }
 
-/// The panels of a mesh file, in its own unit.
-fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Position>>> {
+/// What is said where the gravity of a mesh file is of another unit of length than that (m) in which it is read.
+fn other_unit(gravity: f64, unit: f64, units: UnitSystem) -> Option<String> {
+    let (own, name) = match gravity {
+        9.0..10.5 => (1.0, "metres"),
+        30.0..34.0 => (METRES_PER_FOOT, "feet"),
+        _ => return None,
+    };
+    ((unit / own - 1.0).abs() > SAME_UNIT).then(|| {
+        let scale = own / Dim::Length.to_si(1.0, units);
+        format!("by its gravity of {gravity} it is in {name}, and is read in another unit: -SCALE {scale:.6} reads it in {name}")
+    })
+}
+
+/// A mesh file, in its own unit.
+fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<MeshFile> {
     let path = existing(job, name, span)?;
     let ending = path.extension().map(|e| e.to_string_lossy().to_ascii_uppercase()).unwrap_or_default();
     let given = args.option_choice(&FORMAT, const { FORMAT.choice("FORMAT") });
@@ -443,8 +467,8 @@ fn mesh_of(job: &Job, args: &Args, name: &str, span: Span) -> Outcome<Vec<Vec<Po
     let unusable = |why: String| Diagnostic::error(format!("{name} cannot be used: {why}"), span);
     let bytes =
         crate::commands::settings::device::read_input(job, &path, LARGEST_FILE).map_err(|e| unusable(e.to_string()))?;
-    let panels = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?.panels;
-    if panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(panels) }
+    let file = read_mesh(kind, &bytes).map_err(|e| unusable(e.to_string()))?;
+    if file.panels.is_empty() { Err(unusable("it has no panels".into())) } else { Ok(file) }
 }
 
 fn tube(job: &mut Job, call: &Call) -> Outcome<Effect> {

@@ -137,7 +137,7 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
     let (args, span) = (&call.args, call.args.span);
     let body = find(&job.model.bodies, args.word(NAME).unwrap_or_default(), "body", args.position(NAME))?;
     let Some(period) = args.option_number(&PERIOD) else {
-        return Err(Diagnostic::error("-PERIOD gives the period of the wave", span));
+        return Err(Diagnostic::error("V_WAVES needs -PERIOD, the period of the wave", span));
     };
     let data = body.database.as_ref().map(|attached| attached.data.clone());
     let mut names = vec![body.name.clone()];

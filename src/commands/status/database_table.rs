@@ -40,7 +40,7 @@ pub(crate) fn tables(model: &Model, fits: &dyn Fn(&str) -> bool) -> Vec<Table> {
         rows.push((body, attached, radiation.as_ref().map(|r| attached.memory.unwrap_or_else(|| r.memory()))));
         data.remarks.iter().for_each(|text| whole.note(format!("{}: {text}", body.name)));
         if let Some(radiation) = &radiation {
-            whole.note(format!("{}: {}", body.name, radiation.quality.sentence().0));
+            whole.note(format!("{}: {}", body.name, radiation.quality.sentence(data.infinite.is_some()).0));
         }
         tables.extend(radiation.map(|r| radiation_table(body, attached, &r)));
         tables.extend(excitation(body, attached));

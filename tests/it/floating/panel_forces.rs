@@ -594,6 +594,148 @@ fn drift_of_each_of_two_barges_adds_up_to_waves_far_away() {
     }
 }
 
+/// A barge of 40 x 12 m with a weight (kN) at a point ahead of its middle, where it floats, with G_PRESSURE, and records behind it.
+fn floating_barge(weight: f64, ahead: f64, asked: &str, records: &str) -> (windlass::session::Session, String) {
+    let (mut session, screen, _folder) = common::session();
+    session.open(
+        "records",
+        format!(
+            "&DIMEN -DIMEN METERS KN\n&DEFAULT -WATER 1025 -G 9.80665\n&ENV CALM -DEPTH 60\nMEDIT\n&DESCRIBE BODY S\n*G {ahead} 0 -0.5\n#WEIGHT *G {weight} 8 8 8\n\
+             &SURFACE\nBLOCK HULL -20 -6 -4 20 6 4\nEND_&SURFACE\nEND\n&EQUI\nHYDRODYNAMICS\nG_PRESSURE S {asked}\nEND\n{records}"
+        ),
+    );
+    session.run();
+    let said: Vec<String> = session.reports.iter().map(|r| format!("{} {}", r.message, r.help.join(" "))).collect();
+    let text = format!("{}\n{}", screen.text(), said.join("\n"));
+    (session, text)
+}
+
+#[test]
+fn trimmed_barge_moves_as_by_capytaine_on_its_trimmed_hull() {
+    // tests/data/trimmed_barge/make.py: forces of a trimmed body stay along upright axes; tilted with it a thirtieth of the heave force pushed it ahead in beam
+    // waves, by 0.58 m at 20 s. Panels of 3 m beside cosines: 1.5 % of a metre
+    let (session, text) = floating_barge(18_900.0, 1.0, "-PERIOD 8 9 10 12 14 17 20 -PANEL 3", "");
+    let linear = LinearSystem::new(&session.job.model).unwrap_or_else(|e| panic!("{e:?} {text}"));
+    let mut reader = csv::Reader::from_path("tests/data/trimmed_barge/capytaine.csv").unwrap();
+    for row in reader.records() {
+        let row: Vec<f64> = row.unwrap().iter().map(|word| word.parse().unwrap()).collect();
+        let operators = Operators::new(&linear, &[TAU / row[1]], &[row[0].to_radians() + PI]).unwrap();
+        let made = &operators.motions[0][0];
+        for (dof, exact) in row[2..5].iter().enumerate() {
+            let made = made[dof].norm();
+            assert!((made - exact).abs() < 0.015, "{} deg, {} s, {dof}: {made} for {exact}", row[0], row[1]);
+        }
+        // of pitch in head waves
+        let (made, exact) = (made[4].norm().to_degrees(), row[6]);
+        assert!((made - exact).abs() < 0.02 * 2.05, "{} deg, {} s: {made} for {exact}", row[0], row[1]);
+    }
+}
+
+#[test]
+fn body_that_floats_otherwise_than_its_database_had_it_is_named() {
+    let ballast = |weight: f64| {
+        format!(
+            "MEDIT\n&DESCRIBE BODY S\n#WEIGHT *G {weight} 8 8 8\nEND\n&EQUI\nFREQ_RESPONSE\nRAO -PERIOD 9 -HEADING 180\nEND\n"
+        )
+    };
+    // 4824.87 kN are 1.000 m of 480 m2 of sea water, a hundred 0.02 m
+    let (_, text) = floating_barge(19_300.0, 0.0, "-PERIOD 8 10 -PANEL 6", &ballast(4824.87));
+    assert!(text.contains("S is 1.00 m below where G_PRESSURE had it"), "{text}");
+    let (_, text) = floating_barge(19_300.0, 0.0, "-PERIOD 8 10 -PANEL 6", &ballast(100.0));
+    assert!(!text.contains("S is ") && !text.contains("times the mass"), "{text}");
+}
+
+#[test]
+fn drift_with_roll_damping_in_per_cent_is_the_same_when_it_is_made_again() {
+    let damped = "MEDIT\n&DESCRIBE BODY S\n#ROLL_DAMPING *G -CRITICAL 5\nEND\nHYDRODYNAMICS\nG_PRESSURE S -PERIOD 8 9 9.5 10 12 -PANEL 4 -HEADING 90 180\nEND\n";
+    let drift = |records: &str| {
+        let (session, text) = floating_barge(19_300.0, 0.0, "-PERIOD 10 -HEADING 180 -PANEL 6", records);
+        let data = session.job.model.bodies["S"].database.as_ref().unwrap_or_else(|| panic!("{text}")).data.clone();
+        data.drift.clone().unwrap_or_else(|| panic!("{text}")).values
+    };
+    let finer = damped.replace("-PANEL 4", "-PANEL 3.9");
+    let (once, behind_other) = (drift(damped), drift(&format!("{finer}{damped}")));
+    assert_eq!(once, behind_other);
+}
+
+/// A closed cylinder as a mesh file: of a radius about the z axis from 5 m above the origin to a depth (m), in panels smaller toward the water and the depth. Its
+/// columns stand on a radius that gives the polygon the area of the circle.
+fn cylinder_file(radius: f64, depth: f64, [rows, columns]: [usize; 2]) -> String {
+    let step = TAU / columns as f64;
+    let wider = radius * (step / step.sin()).sqrt();
+    let below = (0..=rows).map(|k| -0.5 * depth * (1.0 - (PI * k as f64 / rows as f64).cos()));
+    let heights: Vec<f64> = std::iter::once(5.0).chain(below).collect();
+    let corners = heights.iter().flat_map(|z| {
+        (0..columns).map(move |j| {
+            let (sine, cosine) = (step * j as f64).sin_cos();
+            format!("v {:.9} {:.9} {z:.9}\n", wider * cosine, wider * sine)
+        })
+    });
+    let (top, number) = (columns * heights.len() + 1, |row: usize, j: usize| columns * row + j % columns + 1);
+    let faces = (0..columns).flat_map(|j| {
+        let last = heights.len() - 1;
+        let ends = [
+            format!("f {top} {} {}\n", number(0, j), number(0, j + 1)),
+            format!("f {} {} {}\n", top + 1, number(last, j + 1), number(last, j)),
+        ];
+        let sides = (0..last).map(move |row| {
+            let [a, b] = [number(row, j), number(row, j + 1)];
+            format!("f {a} {} {} {b}\n", a + columns, b + columns)
+        });
+        ends.into_iter().chain(sides)
+    });
+    let middles = format!("v 0 0 5\nv 0 0 {}\n", -depth);
+    corners.chain([middles]).chain(faces).collect()
+}
+
+#[test]
+fn drift_of_each_of_two_cylinders_on_the_bottom_meets_exact_series() {
+    // crates/diffraction/tests/data/two_cylinders.py: the pressure on each by the series of Linton and Evans for a radius of 1 in water 2 deep, here of 10 m in
+    // 20 m; held by weights that no wave moves. 1.5 % of the largest force
+    let (mut session, screen, folder) = common::session();
+    let file = folder.path().join("cylinder.obj");
+    std::fs::write(&file, cylinder_file(10.0, 20.0, [8, 32])).unwrap();
+    let body = |name: &str| {
+        format!(
+            "&DESCRIBE BODY {name} -IGNORE Z RX RY\n*G{name} 0 0 0\n#WEIGHT *G{name} 1E9 1E3 1E3 1E3\n&SURFACE\nMESH H{name} {} -OWN_PANELS\n\
+             END_&SURFACE\n",
+            file.display()
+        )
+    };
+    let exact = include_str!("../../../crates/diffraction/tests/data/two_cylinders_drift.csv");
+    let rows: Vec<Vec<f64>> =
+        exact.lines().skip(2).map(|line| line.split(',').map(|word| word.parse().unwrap()).collect()).collect();
+    let frequency = |k: f64| (0.1 * k * (2.0 * k).tanh() * 9.80665).sqrt();
+    let periods = [0.6, 1.0].map(|k| (TAU / frequency(k)).to_string()).join(" ");
+    session.open(
+        "records",
+        format!(
+            "&DIMEN -DIMEN METERS K-NTS\n&DEFAULT -WATER 1025 -G 9.80665\n&ENV CALM -DEPTH 20\nMEDIT\n{}{}END\n&INSTATE -LOCATE A -20 0 0\n\
+             &INSTATE -LOCATE B 20 0 0\nHYDRODYNAMICS\nG_PRESSURE A -WITH B -PERIOD {periods} -HEADING 180 225\nEND\n",
+            body("A"),
+            body("B")
+        ),
+    );
+    session.run();
+    let text = screen.text();
+    assert!(text.contains("on the bottom, without panels there"), "{text}");
+    let drift = ["A", "B"].map(|name| {
+        let attached = session.job.model.bodies[name].database.as_ref().unwrap_or_else(|| panic!("{text}"));
+        attached.data.drift.clone().unwrap_or_else(|| panic!("{text}"))
+    });
+    for row in rows.iter().filter(|row| row[0] <= 1.0) {
+        let largest = row[2].hypot(row[3]).max(row[4].hypot(row[5]));
+        for (table, exact) in drift.iter().zip(row[2..].chunks(2)) {
+            let at = table.frequencies.iter().position(|w| (w / frequency(row[0]) - 1.0).abs() < 1e-6).unwrap();
+            let heading = table.headings.iter().position(|h| (h - row[1].to_radians()).abs() < 1e-6).unwrap();
+            for (made, exact) in table.values[heading][at].iter().zip(exact) {
+                let made = made / (1025.0 * 9.80665 * 10.0);
+                assert!((made - exact).abs() < 0.015 * largest, "k {}, {} deg: {made} for {exact}", row[0], row[1]);
+            }
+        }
+    }
+}
+
 #[test]
 fn body_around_another_has_rest_of_drift_and_run_in_time_says_so() {
     // two pontoons 24 m apart are one body with a barge between them, of three planes of symmetry: an upright box fits around the barge alone

@@ -76,7 +76,7 @@ fn picture_without_period_or_of_a_hull_that_cannot_be_meshed_is_refused() {
         session.run();
         session.reports.iter().map(|r| r.message.clone()).collect::<Vec<_>>().join("\n")
     };
-    assert!(said("V_WAVES BARGE").contains("-PERIOD gives the period of the wave"));
+    assert!(said("V_WAVES BARGE").contains("V_WAVES needs -PERIOD, the period of the wave"));
     assert!(said("V_WAVES BARGE -PERIOD 2 -PANEL 5").contains("the shortest wave, of 6.24 m, has 1.2 panels"));
     assert!(said("V_WAVES BARGE -PERIOD 9 -DEPTH 3 -PANEL 8").contains("3.7"));
     assert!(said("V_WAVES BARGE -PERIOD 9 -PANEL 8 -POINTS 20 -FILE waves.pdf").contains("waves.pdf"));

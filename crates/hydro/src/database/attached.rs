@@ -10,7 +10,7 @@ use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, InertialLoad, PreparedLo
 use crate::low_frequency::{LowFrequency, LowFrequencyPosition, dividing_period};
 use crate::sea::Sea;
 use crate::steady::{Medium, Steady};
-use crate::{Category, Load, in_pose, move_stiffness};
+use crate::{Category, Load, heading_axes, in_pose, move_stiffness};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 use std::sync::Arc;
 use windlass_base::pose::{Pose, Six};
@@ -337,7 +337,10 @@ pub fn gather_database_loads(
     if let Some(radiation) = own_radiation(model, body) {
         let infinite = radiation.infinite;
         if under_way.is_none() {
-            added_mass = infinite;
+            // in the axes of the body as it stands
+            let pose = Pose::from_place(&body.position);
+            let upright = Pose { axes: pose.axes.transpose() * heading_axes(&pose), ..Pose::default() };
+            added_mass = in_pose(&infinite, &upright);
         } else if infinite != Matrix6::zeros() {
             carried.push(Box::new(AddedMassLoad { infinite, linear }));
         }

@@ -3,16 +3,16 @@
 //! Source: [CAPYTAINE-3 Conventions, Export outputs]: amplitudes go with exp(-i w t) and the wave is `exp(i k (x cos b + y sin b))`, as here;
 //! phases refer to the origin, rotations and moments to `rotation_center`; SI and radians. Complex numbers stand on a
 //! dimension `complex` of two. `omega` holds zero and infinity as well. A variable that a data set lacks is left out here. A data set of
-//! G_PRESSURE has `body_axes` beside: its bodies have origins and axes of their own, to which all is turned, and mean drift.
+//! G_PRESSURE has `body_axes` beside: its bodies have origins and headings of their own, to which all is turned, and mean drift.
 
 use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::matrix;
 use super::nemoh::refer_phases;
 use super::rows::{DatabaseError, heading};
-use nalgebra::{Complex, Matrix3, Matrix6, Vector3};
+use nalgebra::{Complex, Matrix6, Rotation3, Vector3};
 use netcdf_reader::{NcFile, NcOpenOptions};
 use std::f64::consts::TAU;
-use windlass_model::{Amplitudes, Database, DriftTable, Interaction};
+use windlass_model::{Amplitudes, Database, DriftTable, Interaction, Stance};
 
 /// A heading that is less than a whole turn by this (rad) is none.
 const HEADING_ROOM: f64 = 1e-9;
@@ -267,6 +267,7 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
     if set.has("body_axes") {
         let bodies = set.own_axes()?;
         data.drift = set.mean_drift(&data, along)?;
+        data.stance = set.stance(data.index)?;
         turn_to_axes(&mut data, &bodies).ok_or_else(|| set.error("body_axes has fewer bodies than added_mass"))?;
     } else if set.has("rotation_center") {
         let centre = set.numbers("rotation_center")?.values;
@@ -303,18 +304,17 @@ pub fn numbers(source: &str, bytes: &[u8], name: &str) -> Result<Vec<f64>, Datab
 struct OwnAxes {
     /// Its origin (m).
     origin: Vector3<f64>,
-    /// From the axes of the data set to those of the body.
-    axes: Matrix3<f64>,
     /// Its heading in the data set (rad).
     heading: f64,
 }
 
 impl OwnAxes {
-    /// The same of forces and moments.
+    /// From forces and moments along the axes of the data set to those along the axes of the heading: of a trimmed body they stay upright.
     fn six(&self) -> Matrix6<f64> {
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), -self.heading);
         let mut made = Matrix6::zeros();
         for at in [0, 3] {
-            made.fixed_view_mut::<3, 3>(at, at).copy_from(&self.axes);
+            made.fixed_view_mut::<3, 3>(at, at).copy_from(turn.matrix());
         }
         made
     }
@@ -322,17 +322,20 @@ impl OwnAxes {
 
 impl Set<'_> {
     fn own_axes(&self) -> Result<Vec<OwnAxes>, DatabaseError> {
-        let [axes, origins, headings] =
-            [self.numbers("body_axes")?, self.numbers("rotation_center")?, self.numbers("body_heading")?];
+        let [origins, headings] = [self.numbers("rotation_center")?, self.numbers("body_heading")?];
+        let bodies = origins.values.as_chunks::<3>().0.iter().zip(&headings.values);
+        Ok(bodies.map(|(origin, heading)| OwnAxes { origin: Vector3::from(*origin), heading: *heading }).collect())
+    }
+
+    /// How a body of a data set of windlass floated: the third column of its axes is the vertical.
+    fn stance(&self, index: usize) -> Result<Option<Stance>, DatabaseError> {
+        let [axes, origins] = [self.numbers("body_axes")?, self.numbers("rotation_center")?];
         let (axes, origins) = (axes.values.as_chunks::<9>().0, origins.values.as_chunks::<3>().0);
-        let bodies = axes.iter().zip(origins).zip(&headings.values);
-        Ok(bodies
-            .map(|((axes, origin), heading)| OwnAxes {
-                origin: Vector3::from(*origin),
-                axes: Matrix3::from_row_slice(axes),
-                heading: *heading,
-            })
-            .collect())
+        let of = |([_, _, x, _, _, y, _, _, z], [_, _, height]): (&[f64; 9], &[f64; 3])| Stance {
+            height: *height,
+            up: Vector3::new(*x, *y, *z),
+        };
+        Ok(axes.get(index).zip(origins.get(index)).map(of))
     }
 
     /// Mean drift of a data set of windlass along its axes, at the headings and frequencies of its excitation.
@@ -372,7 +375,7 @@ fn rows_heading(direction: f64) -> f64 {
     heading(direction.to_degrees())
 }
 
-/// Turns a database to the axes of its body, about its origin and with phases there; none where there is no such body.
+/// Turns a database to the axes of the heading of its body, about its origin and with phases there; none where there is no such body.
 fn turn_to_axes(data: &mut Database, bodies: &[OwnAxes]) -> Option<()> {
     let own = bodies.get(data.index)?;
     refer_phases(data, -own.origin.x, -own.origin.y);

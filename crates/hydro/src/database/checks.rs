@@ -152,7 +152,9 @@ pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     (to - from > super::interpolation::WIDEST_GAP).then(|| {
         let [from, to, gap] = [from, to, to - from].map(f64::to_degrees);
         if headings.len() == 1 {
-            return format!("{HEADING_GAP_REMARK} all round: waves other than toward {from:.0} degrees in the body are refused");
+            return format!(
+                "{HEADING_GAP_REMARK} all round: waves other than toward {from:.0} degrees in the body are refused"
+            );
         }
         format!(
             "{HEADING_GAP_REMARK} of {gap:.0} degrees: waves toward {from:.0} to {:.0} in the body are refused",

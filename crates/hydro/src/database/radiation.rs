@@ -364,13 +364,19 @@ struct OgilvieRow {
 }
 
 impl OgilvieQuality {
-    /// What it says of a source, in words, and whether that is a warning.
-    pub fn sentence(&self) -> (String, bool) {
+    /// What it says of a source, in words, and whether that is a warning; `is_given` tells that the source has the added mass at infinite frequency.
+    pub fn sentence(&self, is_given: bool) -> (String, bool) {
         let percent = |(share, direction): (f64, usize)| {
             format!("{:.1} % in {}", 100.0 * share.abs(), MODES.get(direction).copied().unwrap_or_default())
         };
         let (stray, is_warning) = (percent(self.stray), self.stray.0 > MAX_OGILVIE_ERROR);
         match self.shift {
+            None if is_given => (
+                format!(
+                    "its frequencies are too few to see how its added mass at infinite frequency goes with Ogilvie's relation; single frequencies stray from it by {stray}"
+                ),
+                is_warning,
+            ),
             None => (
                 format!(
                     "added mass at infinite frequency is by Ogilvie's relation; single frequencies stray from it by {stray}"
@@ -379,7 +385,7 @@ impl OgilvieQuality {
             ),
             Some(shift) => (
                 format!(
-                    "the added mass at infinite frequency is within {} of that by Ogilvie's relation; single frequencies stray from it by {stray}",
+                    "the added mass at infinite frequency differs by {} from that by Ogilvie's relation; single frequencies stray from it by {stray}",
                     percent(shift)
                 ),
                 is_warning || shift.0.abs() > MAX_OGILVIE_ERROR,

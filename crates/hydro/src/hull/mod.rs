@@ -17,7 +17,7 @@ mod tube;
 
 pub use combination::{Combination, CombinationError};
 pub use faults::{Fault, MAX_REPORTED_FAULTS, intersect};
-pub use mesh::{MeshFile, MeshKind, read_mesh};
+pub use mesh::{MeshFile, MeshKind, close_above_waterline, read_mesh};
 pub(super) use panelling::{Panel, Panelling, pair_triangles};
 pub use state::Hydrostatics;
 pub use surface::Surface;

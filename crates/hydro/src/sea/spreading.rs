@@ -28,15 +28,27 @@ pub fn angle(of: f64, exponent: f64) -> f64 {
     0.5 * (low + high)
 }
 
+/// Unit vectors of travel of so many parts of as much energy each of a sea that comes from a direction (rad), in the middle of the energy of each; one of a
+/// long-crested sea.
+pub fn equal_shares(number: usize, from: f64, exponent: f64) -> Vec<[f64; 2]> {
+    if exponent >= LONG_CRESTED {
+        return vec![travel(from)];
+    }
+    let middle = |i: usize| (i as f64 + 0.5) / number as f64;
+    (0..number).map(|i| travel(from + angle(middle(i), exponent))).collect()
+}
+
+/// The unit vector of travel of waves that come from a direction (rad).
+fn travel(from: f64) -> [f64; 2] {
+    let (cos, sin) = windlass_base::geometry::unit_vector(from.rem_euclid(2.0 * PI));
+    [-cos, -sin]
+}
+
 /// Unit vectors of travel of some components of a sea that comes from a direction (rad).
 pub fn directions(number: usize, from: f64, exponent: f64) -> Vec<[f64; 2]> {
-    let toward = |turn: f64| {
-        let (cos, sin) = windlass_base::geometry::unit_vector((from + turn).rem_euclid(2.0 * PI));
-        [-cos, -sin]
-    };
     let one = |i: usize| match exponent {
         e if e >= LONG_CRESTED => 0.0,
         e => angle((0.5 + i as f64 * GOLDEN).fract(), e),
     };
-    (0..number).map(|i| toward(one(i))).collect()
+    (0..number).map(|i| travel(from + one(i))).collect()
 }

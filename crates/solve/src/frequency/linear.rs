@@ -1,7 +1,7 @@
 //! The linear equations of motion about a place, and the motions of unit waves.
 
 use crate::modes::solve_least_motion;
-use crate::system::{DOFS, SolveError, System, SystemState, between_poses, mass_block};
+use crate::system::{DOFS, SolveError, System, SystemState, between_headings, mass_block};
 use crate::time::{BodyForces, BodyMotion, LoadMemory, RunRequirements};
 use nalgebra::{Complex, DMatrix, DVector, Matrix6};
 use std::f64::consts::TAU;
@@ -15,7 +15,7 @@ use windlass_hydro::database::interaction::{InteractionRadiation, interaction_ra
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
-use windlass_hydro::{Category, in_pose};
+use windlass_hydro::{Category, in_heading};
 use windlass_model::{
     Amplitudes, AttachedDatabase, Body, ClassError, Database, DriftMethod, DriftTable, LoadKind, Model, Part, PartLoad,
     Piece, TimeStep, WaveAction,
@@ -24,8 +24,9 @@ use windlass_model::{
 /// Complex amplitudes of motion, six a body: of its origin (m) and its rotation (rad), global axes.
 pub type Motions = DVector<Complex<f64>>;
 
-/// Acceleration left, as a share of gravity, with which a place is not taken for one at rest.
+/// Acceleration left, as a share of gravity, with which a place is not taken for one at rest; and the roll or pitch (rad) that the moment left would give.
 const MAX_REST_ACCELERATION_SHARE: f64 = 2e-3;
+const MAX_REST_TURN: f64 = 5e-3;
 /// Growth of a motion over that of its mass or its stiffness alone that is taken for one without bound.
 const UNBOUNDED_RESPONSE_RATIO: f64 = 1e9;
 /// Share of the largest motion (m, rad) that is what rounding leaves.
@@ -151,7 +152,7 @@ impl LinearSystem {
             let made = made.map_err(SolveError::error_about(&node.name))?;
             if let Some(made) = &made {
                 let block = mass_block(&node.floating.mass, pose) + node.floating.added_mass(pose)
-                    - in_pose(&made.infinite, pose);
+                    - in_heading(&made.infinite, pose);
                 mass.fixed_view_mut::<6, 6>(6 * index, 6 * index).copy_from(&block);
                 let body = model.bodies.get(&node.key);
                 let damping = body.map(|body| drift_damping_of(model, body, pose)).transpose();
@@ -232,7 +233,12 @@ impl LinearSystem {
             let mass = node.floating.mass.mass;
             let force = (0..3).filter(|f| node.moves(*f)).map(|f| left[6 * index + f]);
             let force = force.fold(0.0, f64::hypot);
-            if mass > 0.0 && force > MAX_REST_ACCELERATION_SHARE * mass * self.system.gravity {
+            let would_turn = |dof: usize| {
+                let (at, stiffness) = (6 * index + dof, self.stiffness[(6 * index + dof, 6 * index + dof)]);
+                node.moves(dof) && stiffness > 0.0 && left[at].abs() > MAX_REST_TURN * stiffness
+            };
+            let is_pushed = force > MAX_REST_ACCELERATION_SHARE * mass * self.system.gravity;
+            if mass > 0.0 && (is_pushed || would_turn(3) || would_turn(4)) {
                 restless.push(node.name.clone());
             }
             if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
@@ -333,10 +339,10 @@ impl LinearSystem {
             let data = &attached.data;
             let more = data.added_mass_at(frequency).map_or(*infinite, |a| infinite + (a - infinite) * *radiated);
             let mut block = mass.fixed_view_mut::<6, 6>(6 * index, 6 * index);
-            block += in_pose(&more, pose);
+            block += in_heading(&more, pose);
             if let Some(own) = data.damping_at(frequency) {
                 let mut block = damping.fixed_view_mut::<6, 6>(6 * index, 6 * index);
-                block += in_pose(&(own * *radiated), pose);
+                block += in_heading(&(own * *radiated), pose);
             }
         }
         for LinearInteraction { on, by, data, infinite, factor } in &self.interactions {
@@ -344,11 +350,11 @@ impl LinearSystem {
             if let Some(added) = data.added_mass_at(frequency) {
                 let mut block = mass.fixed_view_mut::<6, 6>(6 * on, 6 * by);
                 // the system has that of the infinite frequency
-                block += between_poses(&((added - infinite) * *factor), own, other);
+                block += between_headings(&((added - infinite) * *factor), own, other);
             }
             if let Some(radiated) = data.damping_at(frequency) {
                 let mut block = damping.fixed_view_mut::<6, 6>(6 * on, 6 * by);
-                block += between_poses(&(radiated * *factor), own, other);
+                block += between_headings(&(radiated * *factor), own, other);
             }
         }
         (mass, damping)

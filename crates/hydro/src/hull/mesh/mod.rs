@@ -3,6 +3,9 @@
 mod gdf;
 mod obj;
 mod stl;
+mod walls;
+
+pub use walls::close_above_waterline;
 
 use super::HullError;
 use windlass_base::choices;
