@@ -27,6 +27,8 @@ const MAX_PAGE_WIDTH: usize = 160;
 const MIN_PAGE_WIDTH: usize = 72;
 /// The narrowest screen for which reports are laid out; on a narrower one the terminal wraps them.
 const NARROWEST: usize = 40;
+/// A number below this share of the largest beside it is rounding.
+const ROUNDING_SHARE: f64 = 1e-12;
 
 /// The whole report of a table: page head, title, facts, rows, notes. Plain ASCII, no trailing blanks. With a `width` nothing is wider
 /// that can be folded: columns that do not fit go on in blocks below, each behind the row heads.
@@ -101,7 +103,33 @@ pub fn listing(table: &Table, units: UnitSystem) -> Vec<String> {
 /// The rows of a table with their heads, without page head and title: what listings use. With a `width` columns that do not fit go on
 /// in blocks below.
 pub fn grid(table: &Table, units: UnitSystem, width: Option<usize>) -> Vec<String> {
-    join_blocks(blocks(table, units, format::report, width))
+    join_blocks(blocks(&without_rounding(table), units, format::report, width))
+}
+
+/// A table for the page: numbers of fixed decimals that are rounding beside the others of their column, or of its group in the same dimension, are zero.
+fn without_rounding(table: &Table) -> Table {
+    let size = |column: &Column| {
+        let numbers = column.cells.iter().filter_map(Cell::number).filter(|value| value.is_finite());
+        numbers.fold(0.0, |most: f64, value| most.max(value.abs()))
+    };
+    let largest: Vec<f64> = table.columns().iter().map(size).collect();
+    let beside = |column: &Column| {
+        let is_beside =
+            |other: &&Column| !column.group.is_empty() && other.group == column.group && other.dim == column.dim;
+        let own =
+            table.columns().iter().zip(&largest).filter(|(other, _)| std::ptr::eq(*other, column) || is_beside(other));
+        own.map(|(_, largest)| *largest).fold(0.0, f64::max)
+    };
+    let cleaned = |column: &Column| {
+        let least = ROUNDING_SHARE * beside(column);
+        let mut made = column.clone();
+        if !matches!(column.digits, Digits::Scientific(_)) {
+            let is_rounding = |cell: &Cell| matches!(cell, Cell::Number(value) if value.abs() < least);
+            made.cells.iter_mut().filter(|cell| is_rounding(cell)).for_each(|cell| *cell = Cell::Number(0.0));
+        }
+        made
+    };
+    Table::from_columns("", table.columns().iter().map(cleaned).collect())
 }
 
 /// As [`grid`] with three digits more and the row numbers `numbers` (from 0) counted from 1: what `VIEW` shows.

@@ -11,6 +11,7 @@
 //! Records whose text counts as typed ([`Spacing::AsTyped`], and all that hold a string function) are only moved as a whole.
 
 use super::flow::macros::control_word;
+use super::flow::specs::CONTROL;
 use super::record::{self, LONGEST_RECORD, Record};
 use super::select::Owner;
 use super::token::{self, TokenKind};
@@ -166,6 +167,8 @@ fn lay_out<'t>(text: &'t str, commands: &Commands<'_>) -> Option<(Vec<Line<'t>>,
         let is_end = word.get(..3).is_some_and(|head| head.eq_ignore_ascii_case("END"));
         rows_follow &= !is_end;
         let spacing = match control {
+            Some(name) if CONTROL.iter().any(|spec| spec.name == name) => Spacing::AsTyped,
+            Some(name) if !rows_follow => (commands.spacing)(name),
             Some(_) => Spacing::AsTyped,
             None if rows_follow => Spacing::AsTyped,
             None if is_end || record.is_blank() => Spacing::Words,

@@ -55,6 +55,16 @@ fn content(text: &str) -> Vec<Vec<String>> {
 }
 
 #[test]
+fn words_of_internal_commands_have_one_blank_between_them() {
+    // of records that control the flow, and of text, blanks stay
+    let names = [("&ENV", Owner::Moses), ("&TYPE", Owner::Moses), ("&SET", Owner::Moses)];
+    let spacing = |word: &str| if word == "&TYPE" { Spacing::AsTyped } else { Spacing::Words };
+    let typed = "&ENV   -DEPTH    80\n&TYPE  a   b\n&SET  X =  1\n";
+    let want = "&ENV -DEPTH 80\n&TYPE  a   b\n&SET  X =  1\n";
+    assert_eq!(format(typed, &Commands { internal: &names, spacing: &spacing }), want);
+}
+
+#[test]
 fn blocks_and_continuations_are_further_in() {
     let typed = "&IF 1 .EQ. 1 &THEN\n*A 0 0 0  \n  &LOOP I 1 2\n~W B_CAT 4\t-LEN   5 \\\n$ why\n-CLUMP \\\n 1 2 \\\n   3\n&ENDL\n&ELSE\nEND\n&ENDIF";
     let want = "&IF 1 .EQ. 1 &THEN\n  *A 0 0 0\n  &LOOP I 1 2\n    ~W B_CAT 4 -LEN 5 \\\n      $ why\n      -CLUMP \\\n        1 2 \\\n        3\n  &ENDL\n&ELSE\n  END\n&ENDIF\n";
