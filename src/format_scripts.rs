@@ -15,7 +15,7 @@ use windlass_language::spec::{CommandSpec, TextForm};
 pub const HELP: &str = "\
 Records inside &IF, &LOOP and &MACRO are two blanks further in, lines that continue a record too. Lines of the same form that are aligned by
 hand stay aligned; other words have one blank between them. Words, their case, comments and text such as that of &TYPE stay as they are.
-Records in menus are not moved in. AQWA decks have fixed columns, and are refused.
+Records in menus are not moved in. AQWA decks have fixed columns, and are refused; so are models of OrcaFlex, MoorDyn and MAP++, where blanks have a meaning.
 
 Exit codes:
   0    done
@@ -50,6 +50,9 @@ pub enum FormatError {
     /// Its columns are fixed.
     #[error("{0} is an AQWA deck; its columns are fixed, and it is left as it is")]
     Deck(String),
+    /// Blanks have a meaning in it.
+    #[error("{0} is {1}; blanks have a meaning there, and it is left as it is")]
+    Model(String, &'static str),
     /// A byte that is no text.
     #[error("{0}: line {1} holds a byte that is no text; the file is left as it is")]
     NotText(String, usize),
@@ -87,6 +90,19 @@ fn spacing(word: &str) -> Spacing {
     }
 }
 
+/// What a file is that INMODEL reads from other programs: a text model of OrcaFlex by its ending or its first line, a file of MoorDyn, MoorPy or MAP++ by
+/// the lines of dashes that its sections begin with.
+fn model_of_another_program(name: &str, text: &str) -> Option<&'static str> {
+    let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
+    let is_yaml = matches!(ending.as_deref(), Some("yml" | "yaml")) || text.starts_with("%YAML");
+    if is_yaml {
+        return Some("a text model of OrcaFlex");
+    }
+    let begins_section = |line: &str| line.trim_start().starts_with("---");
+    (ending.as_deref() == Some("map") || text.lines().any(begins_section))
+        .then_some("a file of MoorDyn, MoorPy or MAP++")
+}
+
 /// A script in its layout.
 ///
 /// # Errors
@@ -99,6 +115,9 @@ pub fn format_script(name: &str, text: &Text) -> Result<String, FormatError> {
     }
     if windlass_aqwa::is_deck(script) {
         return Err(FormatError::Deck(name.to_string()));
+    }
+    if let Some(kind) = model_of_another_program(name, script) {
+        return Err(FormatError::Model(name.to_string(), kind));
     }
     let internal: Vec<(&'static str, Owner)> =
         CONTROL.iter().map(|spec| (spec.name, spec.owner)).chain(internal_names()).collect();

@@ -424,6 +424,15 @@ pub fn columns(kept: &KeptTable) -> Vec<StoredColumn> {
     columns_of(&kept.table, kept.units)
 }
 
+/// The same table in SI: m, N, rad and s.
+pub fn in_si(kept: &KeptTable) -> KeptTable {
+    let mut table = kept.table.clone();
+    table.facts.iter_mut().for_each(|fact| fact.dim = fact.dim.in_si());
+    let column = |column: &Column| Column { dim: column.dim.in_si(), ..column.clone() };
+    let columns = table.columns().iter().map(column).collect();
+    KeptTable { table: table.with_columns(columns), units: UnitSystem::SI }
+}
+
 /// The facts above the rows of a table: name, value in the user's units, unit.
 pub fn facts(kept: &KeptTable) -> Vec<(String, Cell, String)> {
     let value = |fact: &Fact| match &fact.value {

@@ -77,6 +77,9 @@ impl<'py> Described<'py> {
     }
 }
 
+/// Over the depth: what an end may be below the bottom.
+const ROUNDING: f64 = 1e-9;
+
 /// A line by its properties.
 fn line(py: Python<'_>, number: usize, given: &Bound<'_, PyDict>) -> PyResult<CoupledLine> {
     let mut of = Described::new(given.clone(), format!("line {number}"));
@@ -158,6 +161,9 @@ impl Dynamics {
         if current.iter().chain(&depth).any(|c| !c.is_finite()) {
             return Err(PyValueError::new_err("the current or the depth is not finite"));
         }
+        if let Some(depth) = depth.filter(|depth| *depth <= 0.0) {
+            return Err(PyValueError::new_err(format!("depth is {depth}: it is more than zero, or None without a bottom")));
+        }
         let law = SeabedLaw {
             damping: seabed_damping,
             friction_along: friction,
@@ -176,6 +182,16 @@ impl Dynamics {
         let made: PyResult<Vec<CoupledLine>> =
             lines.iter().enumerate().map(|(at, given)| line(py, at + 1, given)).collect();
         let made = made?;
+        // a line that lies on the bottom has its ends there by rounding
+        let below = |at: &Vector3<f64>| depth.is_some_and(|depth| at.z < -depth * (1.0 + ROUNDING));
+        for (at, line) in made.iter().enumerate() {
+            for (end, name) in [(&line.anchor, "anchor"), (&line.fairlead, "fairlead")] {
+                if below(end) {
+                    let text = format!("line {}: its {name} at {} m is below the bottom at -{} m", at + 1, end.z, depth.unwrap_or_default());
+                    return Err(PyValueError::new_err(text));
+                }
+            }
+        }
         let inner = interruptible::run(py, &AtomicBool::new(false), || CoupledLines::new(made, around, dt))?;
         let inner = inner.map_err(|error| engine_error(py, error))?;
         Ok(Dynamics { inner: Mutex::new(inner) })
@@ -223,8 +239,11 @@ impl Dynamics {
     }
 
     /// Where the nodes of a line (from 0) are (m), from its fairlead, a row each.
-    fn nodes<'py>(&self, py: Python<'py>, line: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let nodes = self.read(|lines| lines.node_positions(line))?;
+    fn nodes<'py>(&self, py: Python<'py>, line: isize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let count = self.read(CoupledLines::len)?;
+        // from the last one, as lists count
+        let at = usize::try_from(line).ok().or_else(|| count.checked_sub(line.unsigned_abs())).unwrap_or(count);
+        let nodes = self.read(|lines| lines.node_positions(at))?;
         nodes
             .map(|nodes| rows(py, &nodes))
             .ok_or_else(|| pyo3::exceptions::PyIndexError::new_err(format!("there is no line {line}")))

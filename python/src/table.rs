@@ -12,7 +12,6 @@ use windlass::hosted::{self, KeptTable};
 use windlass::report::stored::{ColumnValues, StoredColumn};
 use windlass_base::diagnostic::suggest;
 use windlass_base::table::Cell;
-use windlass_base::units::UnitSystem;
 
 /// Rows that a notebook shows.
 const SHOWN_ROWS: usize = 60;
@@ -146,7 +145,7 @@ impl Table {
     /// The same in SI units: m, N, rad, s.
     fn in_si(&self) -> PyResult<Table> {
         match self.kept.as_deref() {
-            Some(kept) => Ok(Table::new(KeptTable { table: kept.table.clone(), units: UnitSystem::SI })),
+            Some(kept) => Ok(Table::new(hosted::in_si(kept))),
             None => Ok(Table::from_columns(&self.title, self.columns.clone())),
         }
     }

@@ -170,6 +170,13 @@ def test_system_refuses_other_shapes():
         system.wrench(np.zeros(5))
     with pytest.raises(ValueError, match="4 fairleads"):
         System([Line([(900.0, 1500.0, 8e8)], anchor=-300.0)], [[0.0, 0.0]], fairleads)
+    line = Line([(900.0, 1500.0, 8e8)], anchor=-300.0)
+    with pytest.raises(ValueError, match=r"anchors have the shape \(2, 3\)"):
+        System([line] * 3, [[820, 0, -300], [-820, 0, -300]], np.zeros((3, 3)))
+    with pytest.raises(ValueError, match=r"anchors have the shape \(2, 4\)"):
+        System([line] * 4, np.zeros((2, 4)), fairleads)
+    with pytest.raises(ValueError, match="x has masked values"):
+        line.forces(np.ma.masked_array([700.0, 800.0], mask=[False, True]), 0.0)
     with pytest.raises(windlass.Error, match="pose 1, line 0"):
         system.wrench([[0.0] * 6, [0.0, 0.0, -400.0, 0.0, 0.0, 0.0]])
 

@@ -32,6 +32,19 @@ def test_ends_of_a_hanging_line_carry_its_weight():
     assert nodes.shape == (21, 3) and np.allclose(nodes[0], (0, 90, 0)) and np.allclose(nodes[-1], (0, 0, -5))
 
 
+def test_ends_below_the_bottom_and_no_depth_are_refused():
+    line = dict(length=900.0, mass=199.0, ea=8.54e8, diameter=0.18, elements=30, anchor=(-800, 0, -300), fairlead=(0, 0, -10), **BARE)
+    with pytest.raises(ValueError, match="line 1: its anchor at -300 m is below the bottom at -50 m"):
+        Dynamics([line], depth=50.0)
+    for depth in (0.0, -5.0):
+        with pytest.raises(ValueError, match="more than zero"):
+            Dynamics([line], depth=depth)
+    lines = Dynamics([line], depth=300.0)
+    assert np.array_equal(lines.nodes(-1), lines.nodes(0))
+    with pytest.raises(IndexError):
+        lines.nodes(-2)
+
+
 def test_driven_chain_follows_moordyn():
     chain = dict(
         length=900.0, mass=199.0, ea=8.54e8, diameter=0.18, elements=100, axial_damping=1e6,

@@ -58,6 +58,18 @@ def test_table_of_a_line_has_the_numbers_of_the_catenary(table):
     assert table.row(0)["Ten Top"] == table["Ten Top"][0] and table.row(-1) == table.row(len(table) - 1)
 
 
+def test_si_has_radians():
+    session = windlass.Session()
+    session.run(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY B -IGNORE X Y Z RX RY RZ\n*CG 0 0 0\n#WEIGHT *CG 100 2 2 2\nEND\n"
+        "&INSTATE -LOCATE B 0 0 0 0 0 30\n&STATUS CONFIGURATION\n"
+    )
+    table = session.table()
+    si = table.in_si()
+    assert (table.units["Yaw"], table["Yaw"][0]) == ("deg", pytest.approx(30.0))
+    assert (si.units["Yaw"], si["Yaw"][0]) == ("rad", pytest.approx(np.pi / 6))
+
+
 def test_unknown_column_row_and_title_name_the_near_ones(chain, table):
     with pytest.raises(KeyError, match="did you mean Ten Top"):
         table["Ten Tpo"]

@@ -127,7 +127,8 @@ fn usual(dim: Dim, units: UnitSystem) -> u8 {
         | Dim::AngleDensity
         | Dim::Damping(_)
         | Dim::Derived { .. }
-        | Dim::SquareMetres => 4,
+        | Dim::SquareMetres
+        | Dim::InSi(_) => 4,
         Dim::ThermalExpansion => 8,
     }
 }

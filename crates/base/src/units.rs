@@ -238,6 +238,8 @@ pub enum Dim {
     Pascals,
     /// Mass density, kg/m3 in every system (AQWA items).
     KilogramsPerCubicMetre,
+    /// In SI whatever the user's units are: what [`Dim::in_si`] makes of dimensions with units of their own, with the unit.
+    InSi(&'static str),
 }
 
 impl Dim {
@@ -308,7 +310,8 @@ impl Dim {
             | Dim::Newtons
             | Dim::NewtonSquareMetres
             | Dim::Pascals
-            | Dim::KilogramsPerCubicMetre => 1.0,
+            | Dim::KilogramsPerCubicMetre
+            | Dim::InSi(_) => 1.0,
         }
     }
 
@@ -338,7 +341,8 @@ impl Dim {
             | Dim::MassPerLength
             | Dim::Newtons
             | Dim::NewtonSquareMetres
-            | Dim::Pascals => 1e36,
+            | Dim::Pascals
+            | Dim::InSi(_) => 1e36,
         }
     }
 
@@ -365,6 +369,24 @@ impl Dim {
     /// User units in `value` SI units.
     pub fn from_si(self, value: f64, units: UnitSystem) -> f64 {
         value / self.factor(units)
+    }
+
+    /// The dimension whose numbers in [`UnitSystem::SI`] are those of SI: degrees, knots, days, millimetres and megapascals are replaced.
+    pub fn in_si(self) -> Dim {
+        match self {
+            Dim::Angle => Dim::InSi("rad"),
+            Dim::AngularVelocity => Dim::InSi("rad/s"),
+            Dim::AngularAcceleration => Dim::InSi("rad/s2"),
+            Dim::AngleDensity => Dim::InSi("rad2-s"),
+            Dim::WindSpeed => Dim::InSi("m/s"),
+            Dim::Days => Dim::InSi("s"),
+            Dim::ThermalExpansion => Dim::InSi("1/K"),
+            Dim::TemperatureRise => Dim::InSi("K"),
+            Dim::Section => Dim::Metres,
+            Dim::SectionArea => Dim::SquareMetres,
+            Dim::Stress => Dim::Pascals,
+            other => other,
+        }
     }
 
     /// The user unit as printed in a column head or an axis label; empty for a plain number.
@@ -415,6 +437,7 @@ impl Dim {
             Dim::NewtonSquareMetres => "N-m2".into(),
             Dim::Pascals => "Pa".into(),
             Dim::KilogramsPerCubicMetre => "kg/m3".into(),
+            Dim::InSi(unit) => unit.into(),
         }
     }
 }

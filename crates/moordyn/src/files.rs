@@ -61,18 +61,27 @@ pub struct Wave {
     pub toward: f64,
 }
 
-/// The rows of a text that have words.
-fn rows<'a>(text: &'a str, source: SourceId, skip: usize) -> Vec<Row<'a>> {
+/// The rows of a text that have words, behind lines of heads.
+///
+/// # Errors
+/// A row of numbers among the heads.
+fn rows<'a>(text: &'a str, source: SourceId, skip: usize) -> Outcome<Vec<Row<'a>>> {
     let mut list = Vec::new();
     let mut offset = 0;
     for (index, line) in text.split_inclusive('\n').enumerate() {
         let row = words(line, offset, source, true);
         offset += line.len();
+        let is_of_numbers = row.words.len() > 1 && row.words.iter().all(|word| word.value.parse::<f64>().is_ok());
+        if index < skip && is_of_numbers {
+            let text = format!("a row of numbers stands among the {skip} lines of heads");
+            let error = Diagnostic::error(text, row.span).label("would not be read");
+            return Err(error.help("the file begins with lines of a title, names and units"));
+        }
         if index >= skip && !row.words.is_empty() {
             list.push(row);
         }
     }
-    list
+    Ok(list)
 }
 
 fn empty(what: &str, source: SourceId) -> Box<Diagnostic> {
@@ -103,7 +112,7 @@ fn at_most(row: &Row<'_>, most: usize, what: &str) -> Outcome<()> {
 /// # Errors
 /// A word that is not a number, places that do not grow, a point that is not of the grid, twice there or missing.
 pub fn seafloor(text: &str, source: SourceId) -> Outcome<Seafloor> {
-    let list = rows(text, source, 0);
+    let list = rows(text, source, 0)?;
     let [sizes, columns, lines, points @ ..] = list.as_slice() else { return Err(empty("the seafloor file", source)) };
     let mut places: [Vec<f64>; 2] = Default::default();
     for (axis, (row, what)) in [(columns, "x"), (lines, "y")].into_iter().enumerate() {
@@ -160,7 +169,7 @@ pub fn seafloor(text: &str, source: SourceId) -> Outcome<Seafloor> {
 /// # Errors
 /// A word that is not a number, heights that neither grow nor fall, a velocity upward.
 pub fn current_profile(text: &str, source: SourceId) -> Outcome<CurrentProfile> {
-    let list = rows(text, source, HEAD_LINES);
+    let list = rows(text, source, HEAD_LINES)?;
     let mut found: Vec<(f64, [f64; 2], Span)> = Vec::new();
     for row in &list {
         at_most(row, 4, "z, ux, uy and uz")?;
@@ -193,7 +202,7 @@ pub fn current_profile(text: &str, source: SourceId) -> Outcome<CurrentProfile> 
 /// # Errors
 /// A word that is not a number, a frequency below zero, a height at the frequency zero.
 pub fn wave_components(text: &str, source: SourceId) -> Outcome<Vec<Wave>> {
-    let list = rows(text, source, 0);
+    let list = rows(text, source, 0)?;
     let mut waves = Vec::new();
     for row in &list {
         at_most(row, 4, "frequency, real and imaginary part and direction")?;
@@ -221,7 +230,7 @@ pub fn wave_components(text: &str, source: SourceId) -> Outcome<Vec<Wave>> {
 /// # Errors
 /// A word that is not a number, times that do not grow, fewer than three rows.
 pub fn wave_elevation(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> {
-    let list = rows(text, source, 0);
+    let list = rows(text, source, 0)?;
     let mut found: Vec<(f64, f64)> = Vec::new();
     for row in &list {
         at_most(row, 2, "time and elevation")?;
@@ -239,7 +248,7 @@ pub fn wave_elevation(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> 
 /// # Errors
 /// A word that is not a number, strains or tensions that do not grow, fewer than two rows.
 pub fn stiffness_table(text: &str, source: SourceId) -> Outcome<Vec<(f64, f64)>> {
-    let list = rows(text, source, HEAD_LINES);
+    let list = rows(text, source, HEAD_LINES)?;
     let mut found: Vec<(f64, f64)> = Vec::new();
     for row in list.iter().filter(|row| row.words.first().is_some_and(|word| !word.value.starts_with("---"))) {
         at_most(row, 2, "strain and tension")?;

@@ -66,6 +66,11 @@ fn kind_of(head: &str) -> Option<(SectionKind, &'static str)> {
     found.min_by_key(|&(at, name, _)| (at, usize::MAX - name.len())).map(|(_, name, kind)| (kind, name))
 }
 
+/// Whether a line holds values: numbers among its first words.
+fn is_row_of_values(row: &Row<'_>) -> bool {
+    row.words.iter().take(5).filter(|word| word.value.parse::<f64>().is_ok_and(f64::is_finite)).count() >= 2
+}
+
 /// The sections of a text. Text before the first head is free; behind it, rows under a head without a name are an error.
 ///
 /// A file of MAP++ has names and units behind the head of its options too, and no comments in its rows.
@@ -86,6 +91,10 @@ pub(crate) fn split<'a>(
         offset += line.len();
         if line.contains("---") {
             let head = row.span;
+            if is_open && is_row_of_values(&row) {
+                let error = Diagnostic::error("a line with --- ends the section, and this one holds values", head);
+                messages.push(*error.label("would not be read").help("--- stands in heads of sections alone"));
+            }
             nameless = None;
             is_open = false;
             if let Some((kind, name)) = kind_of(line) {
@@ -112,6 +121,13 @@ pub(crate) fn split<'a>(
                 nameless = Some(head);
             }
         } else if is_open && heading_lines > 0 {
+            if is_row_of_values(&row) {
+                let what = if heading_lines == 2 { "names of columns" } else { "units" };
+                let error = Diagnostic::error(format!("a row of values stands where the line of {what} is"), row.span);
+                messages.push(
+                    *error.label("would not be read").help("a section begins with a line of names and a line of units"),
+                );
+            }
             if let Some(section) = sections.last_mut() {
                 if heading_lines == 2 {
                     section.columns = row;

@@ -317,6 +317,10 @@ pub(crate) fn read(section: &Section<'_>, deck: &mut Deck, messages: &mut Vec<Di
     }
 }
 
+/// Units in which the numbers of a deck are not.
+const OTHER_UNITS: [&str; 16] =
+    ["kN", "MN", "GN", "mm", "cm", "km", "in", "ft", "t", "te", "Te", "tonne", "lb", "lbf", "kip", "kips"];
+
 type Reader<T> = fn(&Cells<'_>) -> Outcome<T>;
 
 fn rows<T>(
@@ -327,6 +331,14 @@ fn rows<T>(
     messages: &mut Vec<Diagnostic>,
 ) {
     let layout = Layout::new(section, columns, Dialect::MoorDyn, messages);
+    let is_other = |word: &&Word<'_>| OTHER_UNITS.contains(&word.value.trim_matches(['(', ')', '[', ']']));
+    if let Some(word) = section.units.words.iter().find(is_other) {
+        let text = format!(
+            "the line of units has {}, and MoorDyn takes all numbers in N, m, kg and s: so they are taken",
+            word.value
+        );
+        messages.push(*Diagnostic::warning(text, word.span));
+    }
     for row in &section.rows {
         let read = layout.place(row).and_then(|words| reader(&Cells::new(words, row, columns)));
         match read {
@@ -374,6 +386,18 @@ impl<'a> Cells<'a> {
 
     fn numbers(&self, index: usize, counts: &[usize]) -> Outcome<Given<Vec<f64>>> {
         numbers(&self.word_or(index, "0"), self.name(index), counts)
+    }
+
+    /// Numbers none of which is negative.
+    fn sizes(&self, index: usize, counts: &[usize]) -> Outcome<Given<Vec<f64>>> {
+        let given = self.numbers(index, counts)?;
+        match given.value.iter().find(|value| **value < 0.0) {
+            Some(value) => {
+                Err(Diagnostic::error(format!("{} is {value}", self.name(index)), given.span)
+                    .label("must be 0 or more"))
+            }
+            None => Ok(given),
+        }
     }
 
     pub(crate) fn count(&self, index: usize, least: usize) -> Outcome<Given<usize>> {
@@ -516,20 +540,27 @@ fn body(cells: &Cells<'_>) -> Outcome<Body> {
         place: cells.array(2)?,
         mass: cells.size(8, false)?,
         centre: cells.numbers(9, &[1, 3])?,
-        inertia: cells.numbers(10, &[1, 3])?,
+        inertia: cells.sizes(10, &[1, 3])?,
         volume: cells.size(11, false)?,
-        drag_area: cells.numbers(12, &[1, 2, 3, 6])?,
-        added_mass: cells.numbers(13, &[1, 3])?,
+        drag_area: cells.sizes(12, &[1, 2, 3, 6])?,
+        added_mass: cells.sizes(13, &[1, 3])?,
     })
 }
 
 fn rod(cells: &Cells<'_>) -> Outcome<Rod> {
+    let (ends, segments): ([[f64; 3]; 2], _) = ([cells.array(3)?, cells.array(6)?], cells.count(9, 0)?);
+    let apart = ends[0].iter().zip(ends[1]).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+    if segments.value == 0 && apart > 0.0 {
+        let text = format!("NumSegs is 0, which makes a rod without length, and its ends are {apart} m apart");
+        let error = Diagnostic::error(text, segments.span).label("expected 1 or more");
+        return Err(error.help("a rod without length has both ends at one place"));
+    }
     Ok(Rod {
         id: cells.count(0, 1)?,
         rod_type: cells.text(1),
         attachment: attachment(&cells.word_or(2, "-"), Holder::Rod)?,
-        ends: [cells.array(3)?, cells.array(6)?],
-        segments: cells.count(9, 0)?,
+        ends,
+        segments,
     })
 }
 

@@ -60,6 +60,9 @@ class Shape(NamedTuple):
 
 def _columns(**given: ArrayLike) -> tuple[tuple[int, ...], list[Floats]]:
     """The common shape, and each input flat: of that shape, or of one value."""
+    for name, value in given.items():
+        if np.ma.is_masked(value):
+            raise ValueError(f"{name} has masked values: fill them, or leave them out")
     arrays = [np.asarray(value, dtype=np.float64) for value in given.values()]
     shapes = {array.shape for array in arrays if array.size != 1 or array.ndim > 0}
     if len(shapes) > 1:
@@ -208,9 +211,18 @@ class System:
         anchors: ArrayLike,
         fairleads: ArrayLike,
     ) -> None:
-        at = np.asarray(anchors, dtype=np.float64).reshape(-1, 2).tolist()
-        points = np.asarray(fairleads, dtype=np.float64).reshape(-1, 3).tolist()
+        at = self._rows("anchors", anchors, ("x", "y")).tolist()
+        points = self._rows("fairleads", fairleads, ("x", "y", "z")).tolist()
         self._system = _core.System([line._line for line in lines], at, points)
+
+    @staticmethod
+    def _rows(name: str, given: ArrayLike, columns: tuple[str, ...]) -> Floats:
+        made = np.asarray(given, dtype=np.float64)
+        if made.ndim == 1 and made.size == len(columns):
+            made = made.reshape(1, -1)
+        if made.ndim != 2 or made.shape[1] != len(columns):
+            raise ValueError(f"{name} have the shape {made.shape}: a row for each line, of {', '.join(columns)}")
+        return made
 
     @staticmethod
     def _poses(poses: ArrayLike) -> tuple[tuple[int, ...], Floats]:

@@ -1,6 +1,8 @@
 //! Decks that are right, by the tables of MoorDyn's input format [MOORDYN-2].
 
 use crate::{SINGLE_LINE, read};
+use windlass_base::diagnostic::Severity;
+use windlass_base::span::SourceId;
 use windlass_moordyn::tables::{Attachment, AxialStiffness, Height, LineEnd};
 
 #[test]
@@ -45,7 +47,11 @@ Line LineType UnstrLen NumSegs NodeAnch NodeFair Flags/Outputs
     let reading = read(text);
     assert!(!reading.is_failed(), "{:#?}", reading.messages);
     let warnings: Vec<&str> = reading.messages.iter().map(|message| message.message.as_str()).collect();
-    assert_eq!(warnings, ["columns stand in another order than in MoorDyn v2"; 2]);
+    let (order, unit) = (
+        "columns stand in another order than in MoorDyn v2",
+        "the line of units has (kN), and MoorDyn takes all numbers in N, m, kg and s: so they are taken",
+    );
+    assert_eq!(warnings, [order, unit, order]);
     let main = &reading.deck.line_types[0];
     let coefficients = [&main.ca_normal, &main.ca_axial, &main.cd_normal, &main.cd_axial].map(|c| c.value);
     assert_eq!(coefficients, [1.0, 0.25, 1.6, 0.1]);
@@ -54,6 +60,50 @@ Line LineType UnstrLen NumSegs NodeAnch NodeFair Flags/Outputs
     assert_eq!((point.force, point.drag_area.value, point.added_mass.value), ([1.0, 2.0, 3.0], 4.0, 0.6));
     let line = &reading.deck.lines[0];
     assert_eq!((line.length.value, line.segments.value, line.ends[1].value), (835.35, 20, LineEnd::Point(2)));
+}
+
+#[test]
+fn rows_that_would_be_lost_and_wrong_numbers_are_errors() {
+    let deck = |bodies: &str, rods: &str, units: &str, lines: &str| {
+        format!(
+            "--- BODIES ---\nID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG* I* Volume CdA* Ca*\n(#) (word) (m) (m) (m) (deg) (deg) (deg) (kg) (m) (kg-m^2) (m^3) (m^2) (-)\n{bodies}\n\
+             --- RODS ---\nID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs\n(#) (name) (word) (m) (m) (m) (m) (m) (m) (-) (-)\n{rods}\n\
+             --- LINES ---\nID LineType AttachA AttachB UnstrLen NumSegs Outputs\n{units}{lines}\n"
+        )
+    };
+    let (body, rod) = ("1 Free 0 0 -40 0 0 0 6e4 0 4e5 100 30 0.5", "1 spar Free 0 0 -50 0 0 -20 10 -");
+    let (units, line) = ("(#) (name) (#) (#) (m) (-) (-)\n", "1 chain 1 2 850 50 -");
+    let errors = |text: &str| -> Vec<String> {
+        let errors = read(text).messages.into_iter().filter(|message| message.severity == Severity::Error);
+        errors.map(|message| message.message.clone()).collect()
+    };
+    let own = |text: &str, wanted: &str| {
+        let found = errors(text);
+        assert!(found.iter().any(|message| message.contains(wanted)), "{wanted}: {found:?}");
+    };
+    for (change, wanted) in [("-4e5", "I is -400000"), ("4e5|4e5|-3e5", "I is -300000")] {
+        own(&deck(&body.replace("4e5", change), rod, units, line), wanted);
+    }
+    own(&deck(&body.replace(" 30 ", " 30|-900 "), rod, units, line), "CdA is -900");
+    own(&deck(&body.replace("0.5", "-0.5"), rod, units, line), "Ca is -0.5");
+    own(
+        &deck(body, &rod.replace("10 -", "0 -"), units, line),
+        "NumSegs is 0, which makes a rod without length, and its ends are 30 m apart",
+    );
+    own(&deck(body, rod, "", line), "a row of values stands where the line of units is");
+    own(&deck(body, rod, units, &format!("{line}\n2 chain 1 2 860 50 - --- spare leg")), "and this one holds values");
+    own(
+        &deck(body, rod, units, &format!("{line}\n--- lines of spread B\n2 chain 1 2 860 50 -")),
+        "a row of values stands where the line of names of columns is",
+    );
+    let profile = |text: &str| windlass_moordyn::files::current_profile(text, SourceId::default());
+    assert!(
+        profile("-200 0.1 0 0\n-100 0.1 0 0\n-50 0.1 0 0\n0 1 0 0\n")
+            .unwrap_err()
+            .message
+            .contains("among the 3 lines of heads")
+    );
+    assert_eq!(profile("h\nn\nu\n-200 0.1 0 0\n0 1 0 0\n").unwrap().rows.len(), 2);
 }
 
 #[test]
@@ -71,7 +121,7 @@ ID Attachment X0 Y0 Z0 r0 p0 y0 Mass CG* I* Volume CdA* Ca*
 ID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs
 (#) (name) (word) (m) (m) (m) (m) (m) (m) (-) (-)
 1 spar Body1Pinned 0 0 0 0 0 12 10 p
-2 spar Pinned 0 0 -50 0 0 -20 0 -
+2 spar Pinned 0 0 -50 0 0 -50 0 -
 ";
     let reading = read(text);
     assert!(reading.messages.is_empty(), "{:#?}", reading.messages);
@@ -80,7 +130,7 @@ ID RodType Attachment Xa Ya Za Xb Yb Zb NumSegs RodOutputs
     assert_eq!((&body.centre.value[..], &body.inertia.value[..]), (&[0.0, 0.0, -1.5][..], &[1e5][..]));
     assert_eq!(reading.deck.rods[0].attachment.value, Attachment::BodyPinned(1));
     assert_eq!(reading.deck.rods[1].attachment.value, Attachment::Pinned);
-    assert_eq!(reading.deck.rods[1].ends, [[0.0, 0.0, -50.0], [0.0, 0.0, -20.0]]);
+    assert_eq!(reading.deck.rods[1].ends, [[0.0, 0.0, -50.0]; 2]);
 }
 
 #[test]
