@@ -5,6 +5,14 @@ const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 
 let client;
+let starting = false;
+
+// While the server starts, start() alone shows why it cannot.
+class Client extends LanguageClient {
+  error(message, data, show) {
+    super.error(message, data, starting ? false : show);
+  }
+}
 
 function program() {
   return vscode.workspace.getConfiguration("windlass").get("path") || "windlass";
@@ -12,11 +20,16 @@ function program() {
 
 async function start() {
   const server = { command: program(), args: ["lsp"] };
-  client = new LanguageClient("windlass", "windlass", server, { documentSelector: [{ language: "windlass" }] });
+  const options = { documentSelector: [{ language: "windlass" }], initializationFailedHandler: () => false };
+  client = new Client("windlass", "windlass", server, options);
+  starting = true;
   try {
     await client.start();
   } catch (error) {
-    vscode.window.showErrorMessage(`windlass lsp cannot be started (${program()}): ${error.message}. The setting windlass.path names the program.`);
+    const reason = String(error?.message ?? error).replace(/\.?$/, ".");
+    vscode.window.showErrorMessage(`windlass lsp cannot be started (${program()}): ${reason} The setting windlass.path names the program.`);
+  } finally {
+    starting = false;
   }
 }
 

@@ -8,17 +8,22 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::Mutex;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use windlass::hosted::LineWater;
 use windlass_line_dynamics::{
     CoupledLine, CoupledLines, PlaneBottom, Rod, RodSegment, SeabedLaw, Surroundings, UniformFluid,
 };
 
+/// Steps of all lines up to which a call is short: it is not stopped by Ctrl-C.
+const SHORT_STEPS: f64 = 20.0;
+
 /// Lines at rest or on their way.
 #[pyclass(frozen, module = "windlass.dynamics")]
 pub struct Dynamics {
     inner: Mutex<CoupledLines>,
+    /// Set at Ctrl-C.
+    stop: Arc<AtomicBool>,
 }
 
 /// A number of a description by its name; one that is missing has its usual value, or is an error.
@@ -192,9 +197,10 @@ impl Dynamics {
                 }
             }
         }
-        let inner = interruptible::run(py, &AtomicBool::new(false), || CoupledLines::new(made, around, dt))?;
-        let inner = inner.map_err(|error| engine_error(py, error))?;
-        Ok(Dynamics { inner: Mutex::new(inner) })
+        let stop = Arc::new(AtomicBool::new(false));
+        let make = || CoupledLines::with_interrupt(made, around, dt, Arc::clone(&stop));
+        let inner = interruptible::run(py, &stop, make)?.map_err(|error| engine_error(py, error))?;
+        Ok(Dynamics { inner: Mutex::new(inner), stop })
     }
 
     /// Takes the lines to a time (s) with their fairleads at `x` (m) moving at `v` (m/s), a row each; the force of each on its fairlead (N).
@@ -209,8 +215,15 @@ impl Dynamics {
         let inner = self.inner.try_lock();
         let mut inner = inner.map_err(|_| PyRuntimeError::new_err("the lines are at work in another thread"))?;
         let lines = &mut *inner;
-        // steps of a coupling are short: no thread is begun for each
-        detached(py, || lines.step(t, &x, &v))?.map_err(|error| engine_error(py, error))?;
+        // most steps of a coupling are short: no thread is begun for those
+        self.stop.store(false, Ordering::Relaxed);
+        let steps = (t - lines.time()) / lines.longest_step() * lines.len() as f64;
+        let stepped = if steps <= SHORT_STEPS {
+            detached(py, || lines.step(t, &x, &v))?
+        } else {
+            interruptible::run(py, &self.stop, || lines.step(t, &x, &v))?
+        };
+        stepped.map_err(|error| engine_error(py, error))?;
         Ok(rows(py, &inner.fairlead_forces()))
     }
 

@@ -1,6 +1,10 @@
 """Dynamic lines driven from Python: a taut line's stiffness, the weight of a hanging one, MoorDyn's chain."""
 
 import csv
+import os
+import signal
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -138,3 +142,15 @@ def test_wrong_lines_and_steps_are_named():
     with pytest.raises(IndexError):
         lines.nodes(3)
     assert lines.time == 0.0
+
+
+def test_long_step_stops_at_control_c_and_changes_nothing():
+    line = dict(length=900.0, mass=199.0, ea=8.54e8, diameter=0.18, elements=300, anchor=(-800, 0, -300), fairlead=(0, 0, -10), **BARE)
+    lines = Dynamics([line], depth=300.0, dt=0.001)
+    before = lines.forces
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    begun = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        lines.step(900.0, [[0, 0, -10]], [[0, 0, 0]])
+    assert time.monotonic() - begun < 5.0
+    assert lines.time == 0.0 and np.array_equal(lines.forces, before)

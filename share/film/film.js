@@ -77,6 +77,12 @@
   for (const body of bodies) {
     if (body.pressures.length) body.mesh.paints = painter.buffer(new Float32Array(3 * body.mesh.count), false);
   }
+  // Elevations of both signs: white is the still water.
+  const HEIGHTS = [[0.33, 0.19, 0.02], [0.75, 0.51, 0.18], [0.96, 0.96, 0.96], [0.21, 0.59, 0.56], [0.0, 0.24, 0.19]];
+  const crest = waves ? waves.values.reduce((most, _, n, all) => (n % 2 || !Number.isFinite(all[n]) ? most : Math.max(most, Math.hypot(all[n], all[n + 1]))), 0) : 0;
+  surface.stops = HEIGHTS;
+  surface.still = data.level - middle[2];
+  surface.crest = crest;
   function paint(body, time) {
     const [c, s] = [Math.cos(waves.frequency * time), Math.sin(waves.frequency * time)], out = new Float32Array(3 * body.mesh.count);
     for (let t = 0; t < body.pressures.length / 2; t++) {
@@ -239,27 +245,33 @@
       pen.fillText(name, x * 1.3, y * 1.3);
     }
   }
+  function colours(pen, stops) {
+    for (let x = 0; x < 160; x++) {
+      pen.fillStyle = css(ramp(x / 159, stops));
+      pen.fillRect(x, 0, 1, 12);
+    }
+  }
   function legend() {
+    if (crest > 0) {
+      const [least, most, what] = $("elevation").querySelectorAll("span");
+      [least.textContent, most.textContent] = [-crest, crest].map((v) => (v * data.length.per).toFixed(2));
+      what.textContent = `elevation of the water (${data.length.name})`;
+      colours($("elevation").querySelector("canvas").getContext("2d"), HEIGHTS);
+      $("elevation").hidden = false;
+    }
+    $("colours").hidden = !lines.length;
     const share = now.by === "share", most = share ? data.share : data.tension * data.force.per;
     if (data.pressure > 0) {
       $("least").textContent = (-data.pressure).toFixed(2);
       $("most").textContent = data.pressure.toFixed(2);
       $("what").textContent = "pressure over density \u00d7 gravity \u00d7 amplitude";
-      const pen = $("ramp").getContext("2d");
-      for (let x = 0; x < 160; x++) {
-        pen.fillStyle = css(ramp(x / 159, SIGNS));
-        pen.fillRect(x, 0, 1, 12);
-      }
+      colours($("ramp").getContext("2d"), SIGNS);
       $("legend").hidden = false;
       return;
     }
     $("most").textContent = share ? most.toFixed(3) : figures(most);
     $("what").textContent = share ? "tension/break along the line" : `tension along the line (${data.force.name})`;
-    const pen = $("ramp").getContext("2d");
-    for (let x = 0; x < 160; x++) {
-      pen.fillStyle = css(ramp(x / 159));
-      pen.fillRect(x, 0, 1, 12);
-    }
+    colours($("ramp").getContext("2d"), STOPS);
     $("legend").hidden = !lines.length;
   }
 
@@ -288,7 +300,7 @@
     if (on && now.time >= moments[last]) now.time = moments[0];
     now.playing = on && last > 0;
     before = performance.now();
-    $("play").textContent = now.playing ? "\u23f8" : "\u25b6";
+    $("play").classList.toggle("playing", now.playing);
     $("play").setAttribute("aria-label", now.playing ? "Pause" : "Play");
     ask();
   }
@@ -304,11 +316,15 @@
   const VIEWS = { iso: [-2.2, 0.42], side: [-Math.PI / 2, 0.02], front: [Math.PI, 0.02], top: [-Math.PI / 2, 1.5707] };
   // As far off as lets everything into the picture, from where it is looked at.
   function fit() {
-    const { right, up, out } = camera.frame, half = size.map((v) => v / 2), canvas = painter.canvas;
-    const wide = (along) => half.reduce((s, h, i) => s + h * Math.abs(along[i]), 0);
+    const { right, up, out } = camera.frame, canvas = painter.canvas;
     const aspect = canvas.clientWidth / Math.max(canvas.clientHeight, 1);
-    camera.target = [0, 0, 0];
-    camera.far = 1.14 * Math.max(wide(up), wide(right) / aspect, 1) / Math.tan(FIELD / 2) + wide(out) * 0.8;
+    const below = Math.min(data.low[2], data.bottom ?? data.low[2]), above = Math.max(data.high[2], data.level + crest);
+    const half = [size[0] / 2 + margin, size[1] / 2 + margin, (above - below) / 2], signs = [-1, 1];
+    const corners = signs.flatMap((x) => signs.flatMap((y) => signs.map((z) => [x * half[0], y * half[1], z * half[2]])));
+    // a corner nearer to the viewer needs more distance
+    const far = (c) => dot(c, out) + 1.12 * Math.max(Math.abs(dot(c, up)), Math.abs(dot(c, right)) / aspect) / Math.tan(FIELD / 2);
+    camera.target = [0, 0, (below + above) / 2 - middle[2]];
+    camera.far = Math.max(1, ...corners.map(far));
   }
   function view(name) {
     if (VIEWS[name]) camera.look(...VIEWS[name]);

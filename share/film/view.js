@@ -111,7 +111,7 @@ void main() {
 const WATER = [HEAD + `
 in vec2 flat_; in float high; in vec2 slope; uniform mat4 whole; out vec3 at; out vec2 tilt;
 void main() { at = vec3(flat_, high); tilt = slope; gl_Position = whole * vec4(at, 1.); }`, HEAD + `
-in vec3 at; in vec2 tilt; uniform vec3 eye; uniform float boost; out vec4 ink;
+in vec3 at; in vec2 tilt; uniform vec3 eye; uniform float boost; uniform vec3 stops[5]; uniform float still; uniform float crest; out vec4 ink;
 void main() {
   vec3 n = normalize(vec3(-tilt * boost, 1.)); vec3 v = normalize(eye - at);
   if (v.z < 0.) n = -n;
@@ -120,6 +120,13 @@ void main() {
   float shade = dot(n, normalize(vec3(-.6, -.7, .5)));
   vec3 colour = mix(vec3(.02, .22, .40), vec3(.42, .66, .80), clamp(.3 * grazing + 1.1 * shade - .25, 0., 1.));
   ink = vec4(colour + .2 * sun, .3 + .16 * grazing);
+  // of a regular wave the colour tells the elevation
+  if (crest > 0.) {
+    float share = clamp(2. + 2. * (at.z - still) / crest, 0., 4.);
+    vec3 tint = stops[0];
+    for (int k = 0; k < 4; k++) tint = mix(tint, stops[k + 1], clamp(share - float(k), 0., 1.));
+    ink = vec4(tint * (.8 + .2 * clamp(shade, 0., 1.)), .85);
+  }
 }`];
 
 class Painter {
@@ -219,6 +226,9 @@ class Painter {
     gl.uniformMatrix4fv(p.at("whole"), false, this.whole);
     gl.uniform3fv(p.at("eye"), this.eye);
     gl.uniform1f(p.at("boost"), grid.boost);
+    gl.uniform3fv(p.at("stops"), grid.stops.flat());
+    gl.uniform1f(p.at("still"), grid.still);
+    gl.uniform1f(p.at("crest"), grid.crest);
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, grid.corners);
     gl.depthMask(false);
     gl.drawElements(gl.TRIANGLES, grid.count, gl.UNSIGNED_INT, 0);

@@ -55,32 +55,55 @@
     const text = (points) => points.map((p) => at(p).map((v) => v.toFixed(2)).join(",")).join(" ");
     const figure = make("figure"), svg = draw("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": title });
     // a name stands beside its place, where no other name stands
-    const taken = [];
+    const taken = [], ink = [];
+    for (const path of scene.paths) {
+      const points = path.points.map(at);
+      for (let n = 1; n < points.length; n++) {
+        const [[a, b], [c, d]] = [points[n - 1], points[n]], steps = Math.ceil(Math.hypot(c - a, d - b) / 4);
+        for (let k = 0; k <= steps; k++) ink.push([a + (c - a) * k / (steps || 1), b + (d - b) * k / (steps || 1)]);
+      }
+    }
     const label = ([x, y], name) => {
       const w = 7 * name.length, h = 12;
       const places = [];
-      for (const away of [0, 13, 26, 39]) for (const [dx, dy] of [[5, -5 - away], [5, 13 + away], [-5 - w, -5 - away], [-5 - w, 13 + away]]) places.push([x + dx, y + dy]);
+      for (const away of [0, 13, 26, 39]) for (const [dx, dy] of [[5, -5 - away], [5, 13 + away], [-5 - w, -5 - away], [-5 - w, 13 + away], [8 + away, 4], [-8 - away - w, 4]]) places.push([x + dx, y + dy]);
       const free = ([left, low]) => left > 0 && left + w < WIDTH && low > h && low < HEIGHT
         && taken.every(([l, b, width]) => left + w < l || l + width < left || low - h > b || b - h > low);
-      const [left, low] = places.find(free) || places[0];
+      const hidden = ([left, low]) => ink.filter(([x, y]) => x > left - 2 && x < left + w + 2 && y > low - h && y < low + 3).length;
+      // the place over the least of the lines; the nearest one of equals
+      const found = places.filter(free).map((place) => [hidden(place), place]).reduce((a, b) => (b[0] < a[0] ? b : a), [Infinity, places[0]]);
+      const [left, low] = found[1];
       taken.push([left, low, w]);
       return draw("text", { x: left, y: low }, name);
     };
     figure.append(make("h2", {}, `${title} (${data.length})`), svg);
+    // a round length of at most a fifth of the view
+    const wanted = WIDTH / 5 / scale, power = 10 ** Math.floor(Math.log10(wanted));
+    const bar = [5, 2, 1].map((m) => m * power).find((v) => v <= wanted) || power, barEnd = 10 + bar * scale;
+    const barText = `${+bar.toPrecision(6)} ${data.length}`;
+    svg.append(draw("path", { d: `M10,${HEIGHT - 14}v6h${bar * scale}v-6`, class: "bar" }), draw("text", { x: barEnd + 6, y: HEIGHT - 7 }, barText));
+    taken.push([10, HEIGHT - 7, bar * scale + 6 + 7 * barText.length]);
     if (up === 2) {
-      for (const [level, name] of [[scene.surface, "level"], [scene.bottom, "ground"]]) {
+      for (const [level, name, text] of [[scene.surface, "level", "water"], [scene.bottom, "ground", "bottom"]]) {
         if (level === null) continue;
         const y = at([0, 0, level])[1];
-        if (y > 0 && y < HEIGHT) svg.append(draw("line", { x1: 0, x2: WIDTH, y1: y, y2: y, class: name }));
+        if (y > 0 && y < HEIGHT) {
+          svg.append(draw("line", { x1: 0, x2: WIDTH, y1: y, y2: y, class: name }), draw("text", { x: 4, y: y - 4 }, text));
+          taken.push([4, y - 4, 7 * text.length]);
+          for (let x = 0; x < WIDTH; x += 4) ink.push([x, y]);
+        }
       }
     }
     for (const body of scene.bodies) {
+      const group = draw("g");
       for (const shape of body.shapes) {
         const hull = convex(shape.map(at));
-        if (hull.length > 1) svg.append(draw("polygon", { points: hull.map((p) => p.join(",")).join(" "), class: "body" }));
+        if (hull.length > 1) group.append(draw("polygon", { points: hull.map((p) => p.join(",")).join(" "), class: "body" }));
       }
       const [x, y] = at(body.origin);
-      svg.append(draw("circle", { cx: x, cy: y, r: 2.5 }), label([x, y], body.name));
+      group.append(draw("circle", { cx: x, cy: y, r: 2.5 }), draw("title", {}, body.name), label([x, y], body.name));
+      selectable(body.name, group);
+      svg.append(group);
     }
     for (const path of scene.paths) {
       const group = draw("g"), points = text(path.points);
@@ -142,7 +165,12 @@
     const box = $("plots");
     box.replaceChildren();
     const own = data.curves.filter((c) => c.name === name);
-    for (const curve of (own.length > 0 ? own : data.curves).slice(0, MOST)) {
+    const shown = (own.length > 0 ? own : data.curves).slice(0, MOST);
+    if (shown.length < data.curves.length) {
+      const text = `${shown.length} of ${data.curves.length} curves are shown. Click a line or a body to show its own.`;
+      box.append(make("p", { class: "note" }, text));
+    }
+    for (const curve of shown) {
       const x = numbers(curve.x), y = numbers(curve.y);
       const finite = [...y.keys()].filter((i) => Number.isFinite(y[i]) && Number.isFinite(x[i]));
       if (finite.length < 2) continue;

@@ -32,11 +32,15 @@
 
   function ticks([low, high], most) {
     const rough = (high - low) / most, power = 10 ** Math.floor(Math.log10(rough));
-    const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= rough * 0.999999);
-    const first = Math.ceil(low / step), count = Math.floor(high / step) - first;
+    const within = (s) => Math.floor(high / s) - Math.ceil(low / s);
+    const steps = [0.1, 0.2, 0.5, 1, 2, 5, 10].map((m) => m * power);
+    // the smallest step that has room, or the largest one with two ticks
+    const least = steps.find((s) => s >= rough * 0.999999);
+    const step = within(least) > 0 ? least : steps.findLast((s) => s < least && within(s) > 0) || least;
+    const first = Math.ceil(low / step), count = within(step);
     const size = Math.max(Math.abs(low), Math.abs(high)), places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
     const text = (v) => (size >= 1e7 || size < 1e-4 ? v.toExponential(Math.max(0, Math.round(Math.log10(size / step)))) : v.toFixed(Math.min(places, 20)));
-    return Array.from({ length: Math.min(Math.max(count, 0), most) + 1 }, (_, n) => [(first + n) * step, text((first + n) * step)]);
+    return Array.from({ length: Math.min(Math.max(count, 0), Math.max(most, 5)) + 1 }, (_, n) => [(first + n) * step, text((first + n) * step)]);
   }
   function draw() {
     const ratio = window.devicePixelRatio || 1, { x, y, w, h } = box();

@@ -17,6 +17,7 @@ use std::path::Path;
 use windlass_base::diagnostic::Severity;
 use windlass_base::span::SourceId;
 use windlass_base::units::UnitSystem;
+use windlass_base::wildcard::{is_wild, matches};
 use windlass_connectors::class_specs;
 use windlass_language::flow::macros::control_word;
 use windlass_language::flow::specs::CONTROL;
@@ -431,6 +432,25 @@ impl Answers<'_> {
         if is_taken && defined.name != upper {
             return Err(format!("there is a {} {name} already", kind.noun()));
         }
+        if kind == NameKind::Macro
+            && let Some(command) = command_of(&name)
+        {
+            return Err(format!(
+                "{name} is a name of the command {command}: records that call the macro would be that command"
+            ));
+        }
+        for (_, text, _) in &all {
+            let changed = patterns(text).into_iter().find(|pattern| {
+                let mut each = [&defined.name, &upper].map(|one| matches(pattern, one)).into_iter();
+                kind != NameKind::Macro && kind != NameKind::Variable && each.next() != each.next()
+            });
+            if let Some(pattern) = changed.filter(|_| defined.name != upper) {
+                return Err(format!(
+                    "the pattern {pattern} matches one of {} and {name} and not the other: the script would do something else",
+                    defined.name
+                ));
+            }
+        }
         let mut changes: BTreeMap<String, Vec<Value>> = BTreeMap::new();
         for (path, text, list) in places.iter().filter(|(_, _, list)| !list.is_empty()) {
             let index = LineIndex::new(text, self.encoding);
@@ -557,7 +577,9 @@ impl Answers<'_> {
     /// The change that lays the text out; none where it is a deck or is laid out.
     pub fn formatting(&self) -> Value {
         let text = self.text();
-        let Ok(formatted) = format_script("", &Text::from(text.to_string())) else { return Value::Null };
+        let Ok(formatted) = format_script(&self.document.path.to_string_lossy(), &Text::from(text.to_string())) else {
+            return Value::Null;
+        };
         if formatted == text {
             return json!([]);
         }
@@ -602,4 +624,24 @@ fn proposed(found: &Found) -> Vec<String> {
         .map(|name| name.trim().trim_matches('`').to_string())
         .filter(|name| !name.is_empty() && !name.contains(char::is_whitespace))
         .collect()
+}
+
+/// The words of a text that select names by wild characters.
+fn patterns(text: &str) -> Vec<String> {
+    let mut list = Vec::new();
+    let mut at = 0;
+    while at < text.len() {
+        let (record, next, _) = record::read(text, SourceId::default(), at);
+        let words = record.words();
+        let wild = words.iter().map(|word| word.text.to_ascii_uppercase()).filter(|word| is_wild(word));
+        list.extend(wild.filter(|word| !word.contains('%')));
+        at = next;
+    }
+    list
+}
+
+/// The command that a word calls in some menu; a macro of that name is never called there.
+fn command_of(word: &str) -> Option<&'static str> {
+    let specs = COMMANDS.iter().map(|command| command.spec).chain(CONTROL);
+    specs.map(|spec| spec.name).find(|name| name.eq_ignore_ascii_case(word))
 }

@@ -11,25 +11,27 @@ use windlass_language::functions;
 pub const GRAMMAR_FILE: &str = "editors/vscode/syntaxes/windlass.tmLanguage.json";
 /// Fewest letters that a name is abbreviated to; shorter ones are taken for any word.
 const SHORTEST: usize = 4;
+/// Fewest letters of an option: its sign tells it from other words.
+const SHORTEST_OPTION: usize = 3;
 /// What ends a word.
 const END: &str = r"(?=[\s,]|$)";
 
-/// A name that may be left off from the fourth letter on, as a regular expression.
-fn abbreviated(name: &str) -> String {
+/// A name whose letters behind the first `shortest` may be left off, as a regular expression.
+fn abbreviated(name: &str, shortest: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     let signs = letters.iter().take_while(|c| !c.is_ascii_alphanumeric()).count();
     let escape = |c: &char| if c.is_ascii_alphanumeric() || *c == '_' { c.to_string() } else { format!("\\{c}") };
-    let (whole, rest) = letters.split_at(letters.len().min(signs + SHORTEST));
+    let (whole, rest) = letters.split_at(letters.len().min(signs + shortest));
     let whole: String = whole.iter().map(escape).collect();
     let rest = rest.iter().rev().fold(String::new(), |behind, c| format!("(?:{}{behind})?", escape(c)));
     format!("{whole}{rest}")
 }
 
 /// An alternative of names; the longest first, since an editor takes the first that fits.
-fn any_of(names: &BTreeSet<&str>) -> String {
+fn any_of(names: &BTreeSet<&str>, shortest: usize) -> String {
     let mut names: Vec<&str> = names.iter().copied().collect();
     names.sort_by_key(|name| (std::cmp::Reverse(name.len()), *name));
-    names.into_iter().map(abbreviated).collect::<Vec<_>>().join("|")
+    names.into_iter().map(|name| abbreviated(name, shortest)).collect::<Vec<_>>().join("|")
 }
 
 /// The grammar, as JSON with an end of line.
@@ -55,18 +57,18 @@ pub fn build_grammar() -> String {
             rule("constant.character.escape.continuation", r"\\(?=\s*(?:\$.*)?$)".into()),
             rule("string.quoted.double", r#"(?:^|(?<=[\s,]))"[^"]*""#.into()),
             rule("string.quoted.single", r"(?:^|(?<=[\s,]))'[^']*'".into()),
-            rule("keyword.control", format!(r"(?i)^\s*(?:{}){END}", any_of(&control))),
-            rule("support.function", format!(r"(?i)(?:{})(?=\()", any_of(&calls))),
-            rule("keyword.other.command", format!(r"(?i)^\s*(?:{}){END}", any_of(&records))),
+            rule("keyword.control", format!(r"(?i)^\s*(?:{}){END}", any_of(&control, SHORTEST))),
+            rule("support.function", format!(r"(?i)(?:{})(?=\()", any_of(&calls, SHORTEST))),
+            rule("keyword.other.command", format!(r"(?i)^\s*(?:{}){END}", any_of(&records, SHORTEST))),
             rule("keyword.other.command", r"(?i)^\s*END(?:_[A-Z_&]+)?(?=[\s,]|$)".into()),
             json!({
-                "match": format!(r"(?i)(?:^|(?<=[\s,]))(~[^\s,%]+)[\s,]+({}){END}", any_of(&classes)),
+                "match": format!(r"(?i)(?:^|(?<=[\s,]))(~[^\s,%]+)[\s,]+({}){END}", any_of(&classes, SHORTEST)),
                 "captures": {
                     "1": { "name": "entity.name.type.class.windlass" },
                     "2": { "name": "support.type.class.windlass" },
                 },
             }),
-            rule("entity.other.attribute-name", format!(r"(?i)(?<=[\s,])(?:{}){END}", any_of(&options))),
+            rule("entity.other.attribute-name", format!(r"(?i)(?<=[\s,])(?:{}){END}", any_of(&options, SHORTEST_OPTION))),
             rule("variable.other", r"%\([^)\s]*\)|%[A-Za-z_][A-Za-z0-9_]*%?".into()),
             rule("entity.name.type.class", r"(?:^|(?<=[\s,]))~[^\s,%]+".into()),
             rule("entity.name.tag.point", r"(?:^|(?<=[\s,]))\*[^\s,%]+".into()),

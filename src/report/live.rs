@@ -47,12 +47,13 @@ impl LivePage<'_> {
         let scene = self.scene.map_or_else(|| "null".to_string(), |scene| scene_data(scene, self.units));
         let tables = list(self.tables.iter().map(|table| table_data(table, self.units)));
         let curves = list(self.run.map_or(Vec::new(), |run| curves(run, self.units)));
-        let body = format!("{scene}{tables}{curves}{}", self.state);
+        let length = Dim::Length.label(self.units);
+        let body = format!("{scene}{tables}{curves}{}\n{}\n{length}", self.state, self.title);
         let data = object([
             ("title", string(self.title)),
             ("state", string(self.state)),
             ("version", string(&format!("{:016x}", checksum(body.as_bytes())))),
-            ("length", string(&Dim::Length.label(self.units))),
+            ("length", string(&length)),
             ("scene", scene),
             ("tables", tables),
             ("curves", curves),
@@ -240,20 +241,20 @@ mod tests {
                 move |_| value,
             )
         };
-        let html = |value: f64, state: &str| {
+        let html = |value: f64, state: &str, title: &str| {
             let tables = [table(value).build()];
-            let page =
-                LivePage { title: "<i>job", state, scene: None, tables: &tables, run: None, units: UnitSystem::SI };
+            let page = LivePage { title, state, scene: None, tables: &tables, run: None, units: UnitSystem::SI };
             page.html().unwrap()
         };
-        let page = html(1.0, "runs");
+        let page = html(1.0, "runs", "<i>job");
         assert!(!page.contains("<img") && !page.contains("<b>") && !page.contains("<i>"), "{page}");
         assert_eq!(page.matches("</script>").count(), page.matches("<script").count());
         assert!(!page.contains("http://") && !page.contains("https://"));
         let version = |page: &str| page.split("\"version\":\"").nth(1).unwrap()[..16].to_string();
-        assert_eq!(version(&page), version(&html(1.0, "runs")));
-        assert_ne!(version(&page), version(&html(2.0, "runs")));
-        assert_ne!(version(&page), version(&html(1.0, "done")));
+        assert_eq!(version(&page), version(&html(1.0, "runs", "<i>job")));
+        assert_ne!(version(&page), version(&html(2.0, "runs", "<i>job")));
+        assert_ne!(version(&page), version(&html(1.0, "done", "<i>job")));
+        assert_ne!(version(&page), version(&html(1.0, "runs", "<i>other job")));
     }
 
     #[test]

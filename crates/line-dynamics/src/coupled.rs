@@ -15,6 +15,7 @@ use super::state::RodState;
 use nalgebra::Vector3;
 use std::cell::RefCell;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use windlass_model::{Ambient, Flow};
 
 /// What surrounds the lines: water that moves at one velocity and by waves, and a plane bottom.
@@ -60,7 +61,12 @@ pub struct CoupledLines {
     around: Surroundings,
     longest_step: f64,
     time: f64,
+    /// Set by another thread to end what is under way.
+    stop: Arc<AtomicBool>,
 }
+
+/// Lowest place below the bottom at which an end still is on it (m).
+const BELOW_BOTTOM_M: f64 = 1e-6;
 
 /// Steps that one call is cut into at most.
 const MAX_STEPS: f64 = 1e6;
@@ -72,6 +78,7 @@ struct CoupledWater<'a> {
     mean: bool,
     /// Room for what is asked.
     flows: RefCell<Vec<Flow>>,
+    stop: &'a AtomicBool,
 }
 
 impl FluidField for CoupledWater<'_> {
@@ -102,13 +109,14 @@ impl FluidField for CoupledWater<'_> {
     }
 
     fn is_interrupted(&self) -> bool {
-        self.around.ambient.as_ref().is_some_and(|ambient| ambient.is_interrupted())
+        self.stop.load(Ordering::Relaxed)
+            || self.around.ambient.as_ref().is_some_and(|ambient| ambient.is_interrupted())
     }
 }
 
 impl Surroundings {
-    fn water(&self, mean: bool) -> CoupledWater<'_> {
-        CoupledWater { around: self, mean, flows: RefCell::default() }
+    fn water<'a>(&'a self, mean: bool, stop: &'a AtomicBool) -> CoupledWater<'a> {
+        CoupledWater { around: self, mean, flows: RefCell::default(), stop }
     }
 
     fn environment<'a>(&'a self, water: &'a CoupledWater<'a>) -> LineEnvironment<'a> {
@@ -122,17 +130,32 @@ impl CoupledLines {
     /// Lines at rest with their fairleads at their first places, at time 0; a step is no longer than `longest_step` (s).
     ///
     /// # Errors
-    /// A step that is no length of time; what [`RodSolver::statics`] says of a line that finds no rest.
+    /// A step that is no length of time; an end below the bottom; what [`RodSolver::statics`] says of a line that finds no rest.
     pub fn new(lines: Vec<CoupledLine>, around: Surroundings, longest_step: f64) -> Result<Self, RodError> {
+        Self::with_interrupt(lines, around, longest_step, Arc::default())
+    }
+
+    /// As [`CoupledLines::new`]. `stop`, while it is set, ends the search for rest and every step that is under way with
+    /// [`RodError::Interrupted`]; the lines are then as before the step.
+    ///
+    /// # Errors
+    /// Those of [`CoupledLines::new`], and the interruption.
+    pub fn with_interrupt(
+        lines: Vec<CoupledLine>,
+        around: Surroundings,
+        longest_step: f64,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Self, RodError> {
         if !(longest_step > 0.0 && longest_step.is_finite()) {
             let why = format!("its longest step of {longest_step} s is no length of time");
             return Err(RodError::Shape { rod: "system of lines".into(), why });
         }
-        let water = around.water(true);
+        let water = around.water(true, &stop);
         let world = around.environment(&water);
         let mut rods = Vec::with_capacity(lines.len());
         for line in lines {
             let (fairlead, anchor) = (line.fairlead, line.anchor);
+            above_bottom(&line.rod, around.bottom.as_ref(), [("fairlead", fairlead), ("anchor", anchor)])?;
             let points = start_shape(&line.rod, fairlead, anchor, around.bottom.as_ref().map(|(plane, _)| *plane));
             let mut state = RodState::along_points(&line.rod, &points)?;
             let mut solver = RodSolver::new(&line.rod, RodSettings::default());
@@ -142,14 +165,14 @@ impl CoupledLines {
             rods.push(CoupledRod { line, solver, state, position: fairlead, velocity, force: held.force });
         }
         drop(water);
-        Ok(CoupledLines { rods, around, longest_step, time: 0.0 })
+        Ok(CoupledLines { rods, around, longest_step, time: 0.0, stop })
     }
 
     /// Takes the lines on to a time (s) at which the fairleads are at `positions` (m, global) and move at `velocities` (m/s). The time at
     /// which they are changes nothing.
     ///
     /// # Errors
-    /// A time before that of the lines, other than one position and velocity a line, numbers that are not finite, or a step that does not
+    /// A time before that of the lines, other than one position and velocity a line, numbers that are not finite, a fairlead below the bottom, or a step that does not
     /// converge: the lines are then as before the call.
     pub fn step(&mut self, time: f64, positions: &[Vector3<f64>], velocities: &[Vector3<f64>]) -> Result<(), RodError> {
         let refuse = |why: String| Err(RodError::Shape { rod: "system of lines".into(), why });
@@ -162,6 +185,9 @@ impl CoupledLines {
             (positions.iter().zip(velocities)).position(|(x, v)| x.iter().chain(v.iter()).any(|c| !c.is_finite()))
         {
             return refuse(format!("the motion of fairlead {} is not finite", at + 1));
+        }
+        for (rod, fairlead) in self.rods.iter().zip(positions) {
+            above_bottom(&rod.line.rod, self.around.bottom.as_ref(), [("fairlead", *fairlead)])?;
         }
         let interval = time - self.time;
         if interval == 0.0 && positions.iter().zip(&self.rods).all(|(x, rod)| *x == rod.position) {
@@ -178,7 +204,8 @@ impl CoupledLines {
             ));
         }
         let before: Vec<RodState> = self.rods.iter().map(|rod| rod.state.clone()).collect();
-        let water = self.around.water(false);
+        let stop = Arc::clone(&self.stop);
+        let water = self.around.water(false, &stop);
         let world = self.around.environment(&water);
         let mut forces = Vec::with_capacity(count);
         for (rod, (position, velocity)) in self.rods.iter_mut().zip(positions.iter().zip(velocities)) {
@@ -202,6 +229,11 @@ impl CoupledLines {
         }
         self.time = time;
         Ok(())
+    }
+
+    /// The longest step that a call is cut into (s).
+    pub fn longest_step(&self) -> f64 {
+        self.longest_step
     }
 
     /// The time at which the lines are (s).
@@ -251,6 +283,9 @@ impl CoupledRod {
     ) -> Result<[Vector3<f64>; 2], RodError> {
         let mut force = self.force;
         for step in 1..=steps {
+            if world.fluid.is_interrupted() {
+                return Err(RodError::Interrupted { rod: self.line.rod.name().into() });
+            }
             let share = step as f64 / steps as f64;
             let at = if step < steps { from + share * (to - from) } else { to };
             let ends = [RodEnd::from_motion(path.at(share)), RodEnd::pin(self.line.anchor)];
@@ -258,6 +293,23 @@ impl CoupledRod {
         }
         Ok(force)
     }
+}
+
+/// Refuses ends below the bottom.
+fn above_bottom<const N: usize>(
+    rod: &Rod,
+    bottom: Option<&(PlaneBottom, SeabedLaw)>,
+    ends: [(&str, Vector3<f64>); N],
+) -> Result<(), RodError> {
+    let Some((plane, _)) = bottom else { return Ok(()) };
+    for (end, at) in ends {
+        let ground = super::SeabedShape::height(plane, at.x, at.y).0;
+        if at.z < ground - BELOW_BOTTOM_M * ground.abs().max(1.0) {
+            let why = format!("its {end} at z {} m is below the bottom at {ground} m", at.z);
+            return Err(RodError::Shape { rod: rod.name().into(), why });
+        }
+    }
+    Ok(())
 }
 
 /// The way of a fairlead over an interval (s): position and velocity at both ends of it.

@@ -97,13 +97,42 @@ const NAMES: [(&str, OptionKind); 40] = [
 pub(crate) fn read(rows: &[Row<'_>], options: &mut Options, messages: &mut Vec<Diagnostic>) {
     for row in rows {
         let read = match row.words.as_slice() {
-            [value, name, ..] => one(value, name, options),
+            [value, name, ..] => {
+                messages.extend(doubt(value, name));
+                one(value, name, options)
+            }
             _ => Err(Diagnostic::error("an option is a value and then its name", row.span)
                 .label("expected a value and a name")),
         };
         if let Err(error) = read {
             messages.push(*error);
         }
+    }
+}
+
+/// Least density that is not warned of but zero (kg/m3): one in t/m3 is below it.
+const LEAST_DENSITY: f64 = 100.0;
+
+/// Options of MoorDyn that are words.
+const WORDS: [&str; 2] = ["tScheme", "fileIC"];
+
+/// What of an option is read and hardly meant.
+fn doubt(value: &Word<'_>, name: &Word<'_>) -> Option<Diagnostic> {
+    let (known, kind) = NAMES.iter().find(|(known, _)| known.eq_ignore_ascii_case(name.value))?;
+    let parsed = number(value, known).ok();
+    match kind {
+        OptionKind::Density
+            if parsed.as_ref().is_some_and(|given| given.value > 0.0 && given.value < LEAST_DENSITY) =>
+        {
+            let text = format!("the density of the water is {} kg/m3", value.value);
+            let warning = Diagnostic::warning(text, value.span).label("read in kg/m3");
+            Some(*warning.help("sea water has 1025; 0 is no water"))
+        }
+        OptionKind::Unused if parsed.is_none() && !WORDS.contains(known) => {
+            let warning = Diagnostic::warning(format!("{known} is not a number: {}", value.value), value.span);
+            Some(*warning.label("MoorDyn expects a number").help("windlass does not use it"))
+        }
+        _ => None,
     }
 }
 

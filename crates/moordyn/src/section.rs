@@ -87,7 +87,8 @@ pub(crate) fn split<'a>(
     let mut nameless: Option<Span> = None;
     let mut offset = 0;
     for line in text.split_inclusive('\n') {
-        let row = words(line, offset, source, !is_map);
+        let begin = offset;
+        let row = words(line, begin, source, !is_map);
         offset += line.len();
         if line.contains("---") {
             let head = row.span;
@@ -132,7 +133,8 @@ pub(crate) fn split<'a>(
                 if heading_lines == 2 {
                     section.columns = row;
                 } else {
-                    section.units = row;
+                    // (#) is a unit here, and begins no comment
+                    section.units = words(line, begin, source, false);
                 }
             }
             heading_lines -= 1;

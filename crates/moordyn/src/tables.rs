@@ -287,6 +287,9 @@ const LINES: [Column; 7] = [
     optional(&["Outputs", "LineOutputs", "Flags/Outputs", "Flags"]),
 ];
 
+/// The thickest line that is not warned of (m): no rope, chain or riser comes near it, and one in mm is beyond it.
+const LARGEST_DIAMETER_M: f64 = 5.0;
+
 /// Reads a section into the deck.
 pub(crate) fn read(section: &Section<'_>, deck: &mut Deck, messages: &mut Vec<Diagnostic>) {
     if deck.map.is_some() {
@@ -298,7 +301,13 @@ pub(crate) fn read(section: &Section<'_>, deck: &mut Deck, messages: &mut Vec<Di
         SectionKind::LineTypes => {
             let is_old = !has("EI") && has("EA");
             let columns: &'static [Column] = if is_old { &OLD_LINE_TYPES } else { &LINE_TYPES };
+            let first = deck.line_types.len();
             rows(section, columns, line_type, &mut deck.line_types, messages);
+            for kind in deck.line_types.iter().skip(first).filter(|kind| kind.diameter.value > LARGEST_DIAMETER_M) {
+                let text = format!("line type {} is {} m thick", kind.name.value, kind.diameter.value);
+                let warning = Diagnostic::warning(text, kind.diameter.span).label("read in m");
+                messages.push(*warning.help("a diameter in mm is divided by 1000"));
+            }
         }
         SectionKind::RodTypes => rows(section, &ROD_TYPES, rod_type, &mut deck.rod_types, messages),
         SectionKind::Bodies => rows(section, &BODIES, body, &mut deck.bodies, messages),

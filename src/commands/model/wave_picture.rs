@@ -206,7 +206,9 @@ fn run(job: &mut Job, call: &Call) -> Outcome<Effect> {
             args.option_number(&AMPLITUDE).unwrap_or_else(|| FILM_STEEPNESS * wave_length(frequency, meshed.water));
         let own = motions.first().map(Vec::as_slice).unwrap_or_default();
         let shown = film(job, &meshed, &picture, (frequency, amplitude), own);
-        let title = format!("{}: {}", picture.title, picture.waves);
+        // the names of the bodies begin the description of the wave
+        let head = if job.titles[0].is_empty() { "Waves at ".to_string() } else { format!("{}: ", picture.title) };
+        let title = format!("{head}{}, amplitude {}", picture.waves, metres(job, amplitude));
         let page = film::page(&shown, &title, job.units);
         let page = page.map_err(|error| Diagnostic::error(format!("the page could not be made: {error:#}"), span))?;
         let path = job.output.folder.write(name, page.as_bytes());

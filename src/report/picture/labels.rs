@@ -120,7 +120,9 @@ impl Sheet {
 
     /// The rectangle of a name on a side of its place, on whole letters where the sheet is made of them.
     fn label_rectangle(&self, label: &Label, reach: f64, (h, v): (i32, i32)) -> [i32; 4] {
-        let width = self.letter.0.saturating_mul(i32::try_from(label.text.chars().count()).unwrap_or(0));
+        let letters = self.letter.0.saturating_mul(i32::try_from(label.text.chars().count()).unwrap_or(0));
+        // wide capitals need more than the width of a letter
+        let width = if self.in_characters() { letters } else { letters.saturating_add(self.letter.0 / 2) };
         let height = self.letter.1;
         let slant = if h != 0 && v != 0 { 0.7 } else { 1.0 };
         let by = ((slant * reach * f64::from(height)).round() as i32).max(self.letter.0);

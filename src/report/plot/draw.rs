@@ -69,6 +69,16 @@ impl PlotStyle {
         PlotStyle { terminal: true, unit: 1, text: 4, title: 0, margin: 0, areas: (8, 22), ticks, mark: 3 }
     }
 
+    /// Writes a title clear of the upper edge, and returns the surface below it.
+    pub fn below_title<B: DrawingBackend>(
+        &self,
+        area: &DrawingArea<B, Shift>,
+        title: &str,
+    ) -> Result<DrawingArea<B, Shift>, PlotError> {
+        let area = area.margin(self.margin / 2, 0, 0, 0);
+        area.titled(title, ("sans-serif", self.title)).map_err(to_plot_error)
+    }
+
     /// A stroke of so many pixels.
     pub fn stroke(&self, colour: RGBColor, width: u32) -> ShapeStyle {
         colour.stroke_width(width.saturating_mul(self.unit.unsigned_abs()))
@@ -170,7 +180,7 @@ fn draw_mesh<'a, B: DrawingBackend + 'a>(
     let y = PlotAxis::fit(left.map(|p| p.1), look.ticks.1).or_else(|| right.clone()).ok_or(PlotError::Empty)?;
     let area = match look.terminal {
         true => area.clone(),
-        false => area.titled(&chart.title, ("sans-serif", look.title)).map_err(to_plot_error)?,
+        false => look.below_title(area, &chart.title)?,
     };
     let (x, y) = if chart.equal {
         let (width, height) = area.dim_in_pixel();

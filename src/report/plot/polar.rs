@@ -84,7 +84,7 @@ pub fn plane<'a, B: DrawingBackend + 'a>(
         lower
             .draw(&Text::new(chart.x_label.clone(), (middle, 8 * look.unit), centred_style(look, VPos::Top)))
             .map_err(to_plot_error)?;
-        upper.titled(&chart.title, ("sans-serif", look.title)).map_err(to_plot_error)?
+        look.below_title(&upper, &chart.title)?
     };
     let (width, height) = upper.dim_in_pixel();
     let (width, height) = (f64::from(width.max(1)), f64::from(height.max(1)));

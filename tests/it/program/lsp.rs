@@ -318,6 +318,34 @@ fn abbreviated_calls_of_a_macro_are_renamed_with_it() {
 }
 
 #[test]
+fn names_that_would_change_the_run_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let text = "MEDIT\n&DESCRIBE BODY B\n*CG 0 0 0\n~W B_CAT 100 -LEN 300 -WTPLEN 1\nCONNECTOR LA -ANC 0 250 ~W *CG\nEND\n\
+                &CONNECTOR L@ -INACTIVE\n&MACRO LEG A\n&TYPE %A%\n&ENDMACRO\nLEG 1\n";
+    let uri = file(path, "m.cif", text);
+    let mut client = Client::new(path);
+    client.open(&uri, text);
+    client.diagnostics(&uri);
+    let mut rename = |line: u32, character: u32, name: &str| {
+        let params =
+            json!({"textDocument": {"uri": uri}, "position": at(line.into(), character.into()), "newName": name});
+        client.request("textDocument/rename", params)
+    };
+    let said = rename(4, 11, "FORE")["error"]["message"].as_str().unwrap().to_string();
+    assert!(said.contains("the pattern L@") && said.contains("LA and FORE"), "{said}");
+    // another name that the pattern matches too
+    assert_eq!(rename(4, 11, "LB")["result"]["changes"][&uri].as_array().unwrap().len(), 1);
+    for (name, command) in [("TDOM", "TDOM"), ("medit", "MEDIT"), ("&SET", "")] {
+        let answer = rename(7, 8, name);
+        let said = answer["error"]["message"].as_str().unwrap_or_else(|| panic!("{answer}"));
+        assert!(command.is_empty() || said.contains(&format!("the command {command}")), "{said}");
+    }
+    assert_eq!(rename(7, 8, "ARM")["result"]["changes"][&uri].as_array().unwrap().len(), 2);
+    assert_eq!(client.leave(), Some(0));
+}
+
+#[test]
 fn layout_is_an_edit_and_decks_have_none() {
     let folder = tempfile::tempdir().unwrap();
     let mut client = Client::new(folder.path());
@@ -328,6 +356,8 @@ fn layout_is_an_edit_and_decks_have_none() {
     assert_eq!(client.ask("formatting", "untitled:b", at(0, 0)), json!([]));
     client.open("untitled:d", "JOB TEST  NAUT  TIME\nTITLE   a   b\n");
     assert_eq!(client.ask("formatting", "untitled:d", at(0, 0)), Value::Null);
+    client.open("untitled:y.yml", "General:\n  UnitsSystem:   SI\n");
+    assert_eq!(client.ask("formatting", "untitled:y.yml", at(0, 0)), Value::Null);
     assert_eq!(client.leave(), Some(0));
 }
 

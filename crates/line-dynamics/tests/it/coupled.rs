@@ -85,3 +85,28 @@ fn refused_steps_leave_lines_as_they_were() {
     assert_eq!(lines.fairlead_forces(), before.1);
     assert!(CoupledLines::new(Vec::new(), vacuum(), 0.0).is_err());
 }
+
+#[test]
+fn ends_below_bottom_are_refused_and_an_interrupted_step_changes_nothing() {
+    use std::sync::{Arc, atomic::AtomicBool, atomic::Ordering};
+    use windlass_line_dynamics::{PlaneBottom, SeabedLaw};
+    let rod = || Rod::new("chain", vec![RodSegment::line(120.0, 20, 50.0, 1e8, 0.05)], vec![]).unwrap();
+    let bottom = Some((PlaneBottom { height: -50.0, slope: [0.0; 2] }, SeabedLaw::elastic(1e6)));
+    let around = || Surroundings { bottom, ..vacuum() };
+    let fairlead = Vector3::new(0.0, 90.0, 0.0);
+    let line = |z| vec![CoupledLine { rod: rod(), anchor: Vector3::new(0.0, 0.0, z), fairlead }];
+    let error = CoupledLines::new(line(-50.1), around(), 0.1).unwrap_err().to_string();
+    assert!(error.contains("its anchor at z -50.1 m is below the bottom at -50 m"), "{error}");
+    let stop = Arc::new(AtomicBool::new(false));
+    let mut lines = CoupledLines::with_interrupt(line(-50.0), around(), 0.1, Arc::clone(&stop)).unwrap();
+    let before = (lines.time(), lines.fairlead_forces(), lines.node_positions(0));
+    let still = [Vector3::zeros()];
+    let error = lines.step(0.1, &[Vector3::new(0.0, 90.0, -60.0)], &still).unwrap_err().to_string();
+    assert!(error.contains("its fairlead at z -60 m"), "{error}");
+    stop.store(true, Ordering::Relaxed);
+    let error = lines.step(10.0, &[fairlead], &still).unwrap_err().to_string();
+    assert!(error.contains("interrupted"), "{error}");
+    assert_eq!((lines.time(), lines.fairlead_forces(), lines.node_positions(0)), before);
+    stop.store(false, Ordering::Relaxed);
+    lines.step(0.1, &[fairlead], &still).unwrap();
+}

@@ -111,3 +111,22 @@ fn unknown_column_among_names_in_another_order_is_an_error() {
     assert!(reading.is_failed());
     assert_eq!(reading.messages[0].message, "column Len_unstr is not known here");
 }
+
+#[test]
+fn units_and_sizes_that_are_hardly_meant_are_warned_of() {
+    for (from, to, word, says) in [
+        ("(#)       (m)      (-)      (-)", "(#) (km) (-) (-)", "(km)", "the line of units has (km)"),
+        ("0.1384", "138.4", "138.4", "line type chain is 138.4 m thick"),
+        ("1e6     kBot", "1.025 rho", "1.025", "the density of the water is 1.025 kg/m3"),
+        ("0.002   dtM", "abc dtM", "abc", "dtM is not a number: abc"),
+    ] {
+        assert!(SINGLE_LINE.contains(from), "{from}");
+        let text = SINGLE_LINE.replacen(from, to, 1);
+        let reading = read(&text);
+        let [message] = &reading.messages[..] else { panic!("{to}: {:#?}", reading.messages) };
+        let span = message.span.unwrap();
+        assert_eq!(&text[span.start as usize..span.end as usize], word);
+        assert!(message.message.contains(says), "{}", message.message);
+        assert!(!reading.is_failed());
+    }
+}
