@@ -14,8 +14,8 @@ use windlass_model::{ClassError, Environment, Model, Surroundings};
 /// only "above" and "below"; a jump would keep an equilibrium near it from being found.
 pub const SURFACE_TRANSITION_M: f64 = 0.25;
 
-/// Directions that a short-crested sea at rest is made of: a mean of `cos` or `cos2` of the direction is met to 2e-4.
-const SPREAD_PARTS: usize = 24;
+/// Directions that a short-crested sea at rest is made of.
+const SPREAD_PARTS: usize = 36;
 
 /// Air or water.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Steady {
     pub wind: Option<WindField>,
     /// Current.
     pub current: CurrentField,
-    /// The seas, each with the horizontal direction it travels toward; a short-crested one in parts of as much energy each.
+    /// The seas, each with the horizontal direction it travels toward; a short-crested one in parts.
     pub waves: Vec<(Vector3<f64>, Arc<WaveEnergies>)>,
     /// What varies in time, for bodies under way.
     pub variation: Option<Arc<Variation>>,
@@ -91,9 +91,8 @@ impl Steady {
             let whole = WaveEnergies::new(model, env, sea)?;
             // a regular wave has one direction
             let exponent = env.spreading.filter(|_| !is_regular(sea)).unwrap_or(spreading::LONG_CRESTED);
-            let towards = spreading::equal_shares(SPREAD_PARTS, sea.direction, exponent);
-            let part = Arc::new(whole.scaled(1.0 / towards.len() as f64));
-            waves.extend(towards.into_iter().map(|[x, y]| (Vector3::new(x, y, 0.0), Arc::clone(&part))));
+            let parts = spreading::parts(SPREAD_PARTS, sea.direction, exponent).into_iter();
+            waves.extend(parts.map(|([x, y], share)| (Vector3::new(x, y, 0.0), Arc::new(whole.scaled(share)))));
         }
         for train in given_trains(model, env)? {
             for (direction, energies) in WaveEnergies::by_direction(&train.waves) {

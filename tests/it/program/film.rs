@@ -108,7 +108,7 @@ fn film_page_fetches_nothing_and_is_well_formed_with_any_title() {
         run(&format!("{MOORED}&ANIMATE run -HEADING '</script><b>& <!-- \\ {{{{ 7 }}}}' -EVENTS 0 6 2"));
     assert_eq!(session.errors, 0, "{:?}", session.reports);
     let page = fs::read_to_string(job.join("run.html")).unwrap();
-    for word in ["http", "src=", "href=", "import", "fetch(", "url("] {
+    for word in ["http", "src=", "href=", "import ", "import(", "fetch(", "url("] {
         assert!(!page.contains(word), "{word}");
     }
     assert!(data(&page)["title"].as_str().unwrap().starts_with("</script><b>& <!--"));

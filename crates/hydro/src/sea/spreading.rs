@@ -10,6 +10,8 @@ use windlass_nonlinear::bisect;
 
 /// From this exponent on a sea is long-crested.
 pub const LONG_CRESTED: f64 = 200.0;
+/// A part of a sea with less of its energy is none.
+const LEAST_SHARE: f64 = 1e-9;
 /// Halvings of the half circle after which an angle is known to 1e-12.
 const ANGLE_HALVINGS: usize = 42;
 /// The golden section less one.
@@ -28,14 +30,17 @@ pub fn angle(of: f64, exponent: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// Unit vectors of travel of so many parts of as much energy each of a sea that comes from a direction (rad), in the middle of the energy of each; one of a
-/// long-crested sea.
-pub fn equal_shares(number: usize, from: f64, exponent: f64) -> Vec<[f64; 2]> {
+/// Parts of a sea that comes from a direction (rad), each with its unit vector of travel and its share of the energy: directions at equal distances over the
+/// half circle, whose sum converges faster than any power of their number; one of a long-crested sea.
+pub fn parts(number: usize, from: f64, exponent: f64) -> Vec<([f64; 2], f64)> {
     if exponent >= LONG_CRESTED {
-        return vec![travel(from)];
+        return vec![(travel(from), 1.0)];
     }
-    let middle = |i: usize| (i as f64 + 0.5) / number as f64;
-    (0..number).map(|i| travel(from + angle(middle(i), exponent))).collect()
+    let turn = |i: usize| PI * ((i as f64 + 0.5) / number as f64 - 0.5);
+    let weight = |i: usize| turn(i).cos().powf(exponent);
+    let whole: f64 = (0..number).map(weight).sum();
+    let all = (0..number).map(|i| (travel(from + turn(i)), weight(i) / whole));
+    all.filter(|(_, share)| *share > LEAST_SHARE).collect()
 }
 
 /// The unit vector of travel of waves that come from a direction (rad).

@@ -124,11 +124,11 @@ fn spreading_matches_cumulative_cosine_squared() {
         assert!((spreading::share(angle, 2.0) - exact).abs() < 1e-12, "{angle}");
         assert!((spreading::angle(exact, 2.0) - angle).abs() < 1e-9);
     }
-    // under cos2 the mean of the cosine is 8/(3 pi), of its square 3/4; 24 parts of equal energy
-    let parts = spreading::equal_shares(24, PI, 2.0);
-    let mean = |of: fn(f64) -> f64| parts.iter().map(|[x, _]| of(*x)).sum::<f64>() / 24.0;
-    assert!((mean(|x| x) - 8.0 / (3.0 * PI)).abs() < 5e-4 && (mean(|x| x * x) - 0.75).abs() < 1e-3);
-    assert_eq!(spreading::equal_shares(24, PI, spreading::LONG_CRESTED).len(), 1);
+    // under cos2 the mean of the cosine is 8/(3 pi), of its square 3/4
+    let parts = spreading::parts(36, PI, 2.0);
+    let mean = |of: fn(f64) -> f64| parts.iter().map(|([x, _], share)| of(*x) * share).sum::<f64>();
+    assert!((mean(|x| x) - 8.0 / (3.0 * PI)).abs() < 1e-5 && (mean(|x| x * x) - 0.75).abs() < 1e-12);
+    assert_eq!(spreading::parts(36, PI, spreading::LONG_CRESTED), [([1.0, 0.0], 1.0)]);
     let made = spreading::directions(2000, 0.0, 2.0);
     // the mean of cos^2 of the direction under a cos^2 spreading is 3/4; low discrepancy: about 1/N
     let mean = made.iter().map(|d| d[0] * d[0]).sum::<f64>() / 2000.0;
