@@ -1,7 +1,7 @@
 //! Data of an object by name: what is used, what does nothing here, and what is left over.
 
 use crate::yaml::{Content, Entry, Node};
-use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::diagnostic::{Diagnostic, Outcome, suggest};
 use windlass_base::span::Span;
 
 /// A value and its place.
@@ -70,6 +70,16 @@ impl<'a> Data<'a> {
         self.node(name).map(|node| number(node, name, false)).transpose()
     }
 
+    /// A number that is zero or more.
+    pub(crate) fn not_negative(&mut self, name: &str) -> Outcome<Option<Given<f64>>> {
+        match self.number(name)? {
+            Some(given) if given.value < 0.0 => {
+                Err(Diagnostic::error(format!("{name} is {}", given.value), given.span).label("must be 0 or more"))
+            }
+            given => Ok(given),
+        }
+    }
+
     /// A number that must be there, greater than zero.
     pub(crate) fn size(&mut self, name: &str, what: &str) -> Outcome<Given<f64>> {
         let Some(given) = self.number(name)? else {
@@ -91,7 +101,8 @@ impl<'a> Data<'a> {
             Content::List(items) => items.as_slice(),
             _ => std::slice::from_ref(node),
         };
-        if items.len() > N {
+        // one number alone stands for the first
+        if items.len() > N || (items.len() > 1 && items.len() < N) {
             return Err(Diagnostic::error(format!("{name} has {} values", items.len()), node.span)
                 .label(format!("expected {N}")));
         }
@@ -200,6 +211,21 @@ pub(crate) struct TableRow<'a> {
 }
 
 impl<'a> Rows<'a> {
+    /// Sees that its columns are among those that are read; of others that resemble none it is said that they are not used.
+    ///
+    /// # Errors
+    /// A column that resembles one.
+    pub(crate) fn check_columns(&self, known: &[&'static str], messages: &mut Vec<Diagnostic>) -> Outcome<()> {
+        for column in self.columns.iter().filter(|column| !known.contains(column)) {
+            let text = format!("the column {column} is not used");
+            if let Some(help) = suggest(column, known.iter().copied()) {
+                return Err(Diagnostic::error(text, self.span).help(help));
+            }
+            messages.push(*Diagnostic::remark(text, self.span));
+        }
+        Ok(())
+    }
+
     /// The cell of a row in a column; none where the table lacks the column or the cell is `~`.
     pub(crate) fn node(&self, row: &TableRow<'a>, column: &str) -> Option<&'a Node> {
         let index = self.columns.iter().position(|name| *name == column)?;

@@ -286,7 +286,7 @@ fn environment(node: &Node, messages: &mut Vec<Diagnostic>) -> Outcome<Environme
             note_unused("WaveTrains", &own.left(), messages);
         }
     }
-    let speed = data.number("RefCurrentSpeed")?.filter(|given| given.value != 0.0);
+    let speed = data.not_negative("RefCurrentSpeed")?.filter(|given| given.value != 0.0);
     let toward = data.number("RefCurrentDirection")?.unwrap_or_default();
     let mut current_profile = Vec::new();
     if let Some(rows) = data.table("CurrentDepth")? {
@@ -394,7 +394,7 @@ fn line_type(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<LineType> 
     let axial_diameter = data.number("AxialDragLiftDiameter")?.map_or(outer.value, |given| given.value);
     let used = drag_diameter.unwrap_or(outer.value);
     let cd_axial = if used > 0.0 { cd_axial * axial_diameter / used } else { 0.0 };
-    let friction = data.number("SeabedLateralFrictionCoefficient")?.map_or(0.0, |given| given.value);
+    let friction = data.not_negative("SeabedLateralFrictionCoefficient")?.map_or(0.0, |given| given.value);
     if let Some(axial) = data.number("SeabedAxialFrictionCoefficient")?.filter(|given| given.value != friction) {
         return Err(Diagnostic::error("friction along the line is not that across it", axial.span)
             .label(format!("expected {friction}, or ~")));
@@ -427,7 +427,7 @@ fn vessel(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<Vessel> {
     Ok(Vessel { name, position, orientation })
 }
 
-fn line(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<Line> {
+fn line(data: &mut Data<'_>, messages: &mut Vec<Diagnostic>) -> Outcome<Line> {
     let name = name(data, "a line")?;
     data.refuse_rows("AttachmentType", "what is attached would be lost")?;
     data.only("PreBendSpecifiedBy", &["Curvature"], "lines are straight without load")?;
@@ -439,7 +439,7 @@ fn line(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<Line> {
     data.zero("ContentsPressure", "pressure of the contents is not read")?;
     data.zero("ContentsFlowRate", "the contents do not flow")?;
     data.only("ContentsMethod", &["Uniform"], "its contents would be lost")?;
-    let contents = data.number("ContentsDensity")?.map_or(0.0, |given| given.value);
+    let contents = data.not_negative("ContentsDensity")?.map_or(0.0, |given| given.value);
     if let Some(rows) = data.table("ConnectionxBendingStiffness")? {
         for row in &rows.rows {
             for column in ["ConnectionxBendingStiffness", "ConnectionyBendingStiffness"] {
@@ -461,6 +461,7 @@ fn line(data: &mut Data<'_>, _: &mut Vec<Diagnostic>) -> Outcome<Line> {
         return Err(Diagnostic::error(format!("line {} has no sections", name.value), name.span)
             .label("expected LineType, Length, TargetSegmentLength"));
     };
+    rows.check_columns(&["LineType", "Length", "TargetSegmentLength", "NumberOfSegments"], messages)?;
     for row in &rows.rows {
         let kind = rows.word(row, "LineType")?;
         let length = rows.needed(row, "Length")?;

@@ -24,6 +24,14 @@ fn wrong_values_are_errors_at_their_words() {
         ("- - FPSO", "- - FPSQ", "what a line is connected to, FPSQ is not known", "FPSQ"),
         ("- - hose", "- - hosse", "line type hosse is not known", "hosse"),
         ("ContentsPressure: 0", "ContentsPressure: 5", "ContentsPressure 5 is not read", "5"),
+        ("ContentsDensity: 1", "ContentsDensity: -1", "ContentsDensity is -1", "-1"),
+        ("RefCurrentSpeed: 0", "RefCurrentSpeed: -1", "RefCurrentSpeed is -1", "-1"),
+        (
+            "SeabedLateralFrictionCoefficient: 0.5",
+            "SeabedLateralFrictionCoefficient: -0.5",
+            "SeabedLateralFrictionCoefficient is -0.5",
+            "-0.5",
+        ),
         ("Groups:", "6DBuoys:", "6DBuoys is not read: its loads would be lost", "6DBuoys"),
         ("Lines:", "Lynes:", "Lynes is not read: its loads would be lost", "Lynes"),
     ];
@@ -33,6 +41,14 @@ fn wrong_values_are_errors_at_their_words() {
         let word = if word == "Airy" { "Dean stream" } else { word };
         assert_eq!(at, word, "{new}: {said}");
     }
+}
+
+#[test]
+fn short_lists_and_misspelt_columns_are_errors() {
+    let (said, _) = with("  Orientation:\n  - 0\n  - 0\n  - 0", "  Orientation:\n  - 0\n  - 0");
+    assert_eq!(said, "Orientation has 2 values");
+    let (said, _) = with("LineType, Length, TargetSegmentLength:", "LineType, Length, TargetSegmentLenght:");
+    assert_eq!(said, "the column TargetSegmentLenght is not used");
 }
 
 #[test]

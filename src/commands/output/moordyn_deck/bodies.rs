@@ -3,7 +3,7 @@
 use super::system::{AT_END_M, BodyRole, DeckWriter, own, rounded};
 use nalgebra::Vector3;
 use std::f64::consts::FRAC_PI_4;
-use windlass_base::diagnostic::Outcome;
+use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::geometry::Position;
 use windlass_model::{Body, LoadKind, Lump, Mass, Member, Model, Part, PartLoad, Shape, Weight};
 use windlass_moordyn::records::VESSEL;
@@ -13,6 +13,8 @@ use windlass_moordyn::tables::{self, Attachment, Rod, RodType};
 const ROD_SEGMENTS: usize = 10;
 /// Products of inertia that are zero but for rounding, as a share of the largest moment.
 const PRODUCT_TOLERANCE: f64 = 1e-9;
+/// A turn below this is rounding (rad).
+const LEAST_TURN: f64 = 1e-7;
 
 /// A round member of a body, in the body's axes (m).
 struct Bar<'a> {
@@ -63,8 +65,12 @@ impl<'a> DeckWriter<'a> {
                 Ok(BodyRole::Caller)
             }
             Ok(parts) if axes_turned(body) > 1 && !parts.is_rod() => {
-                self.note_moved_body(body, "turns about more than one axis");
-                Ok(BodyRole::Caller)
+                let text = format!(
+                    "{} is turned about more than one axis, which a deck does not hold: read again it would stand still",
+                    body.name
+                );
+                Err(Diagnostic::error(text, self.span)
+                    .help("store the model before &EQUI, or &INSTATE -LOCATE turns the body about one axis"))
             }
             Ok(parts) => self.free_body(body, &parts),
         }
@@ -116,7 +122,7 @@ impl<'a> DeckWriter<'a> {
     /// Adds the row of a body; returns its id.
     fn body_row(&mut self, body: &Body, attachment: Attachment, mass: &Mass) -> usize {
         let id = self.deck.bodies.len() + 1;
-        let [x, y, z, roll, pitch, yaw] = body.position.values();
+        let ([x, y, z], [roll, pitch, yaw]) = (body.position.shift, written_turn(body));
         let place = [x, y, z, roll.to_degrees(), pitch.to_degrees(), yaw.to_degrees()].map(rounded);
         let about = mass.inertia_about(mass.centre).diagonal();
         self.deck.bodies.push(tables::Body {
@@ -429,5 +435,10 @@ fn is_alike([x, y, z]: &[f64; 3]) -> bool {
 
 /// About how many axes a body is turned.
 fn axes_turned(body: &Body) -> usize {
-    body.position.turn.iter().filter(|angle| **angle != 0.0).count()
+    written_turn(body).iter().filter(|angle| **angle != 0.0).count()
+}
+
+/// Roll, pitch and yaw as a deck has them (rad): what rounding turns is none.
+fn written_turn(body: &Body) -> [f64; 3] {
+    body.position.turn.map(|angle| if angle.abs() < LEAST_TURN { 0.0 } else { angle })
 }
