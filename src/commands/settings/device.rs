@@ -12,6 +12,8 @@ use windlass_language::spec::{CommandSpec, Kind, OptionSpec, ValueSpec};
 /// &DEVICE.
 pub static DEVICE: Command = Command { spec: &SPEC, edits: false, run };
 
+/// Names of a folder among which one that was meant is looked for.
+const MOST_NEAR: usize = 1000;
 const YES_NO: ValueSpec = ValueSpec::choice::<YesNo>("YES/NO", "on or off").or("YES");
 const FILE: ValueSpec = ValueSpec::new("FILE", Kind::File, "file name");
 const ANY: ValueSpec = ValueSpec::new("VALUE", Kind::Text, "as MOSES takes it").or("none");
@@ -232,16 +234,20 @@ pub fn existing(job: &Job, name: &str, span: Span) -> Outcome<PathBuf> {
     if path.is_file() {
         return within_check(job, path, span);
     }
+    // a check does not tell what there is elsewhere
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let nearest = folder.ancestors().find(|folder| folder.exists()).unwrap_or(Path::new("."));
+    if within_check(job, nearest.to_path_buf(), span).is_err() {
+        return within_check(job, path, span);
+    }
     if path.exists() {
         let sort = if path.is_dir() { "a folder" } else { "not a regular file" };
         return Err(Diagnostic::error(format!("{} is {sort}", path.display()), span));
     }
-    let near = path
-        .parent()
-        .and_then(|folder| std::fs::read_dir(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }).ok())
-        .map(|entries| {
-            entries.flatten().take(1000).map(|e| e.file_name().to_string_lossy().into_owned()).collect::<Vec<_>>()
-        })
+    // as the name is written, with its folders
+    let written = |entry: std::fs::DirEntry| Path::new(name).with_file_name(entry.file_name()).display().to_string();
+    let near: Vec<String> = std::fs::read_dir(folder)
+        .map(|entries| entries.flatten().take(MOST_NEAR).map(written).collect())
         .unwrap_or_default();
     let mut error = Diagnostic::error(format!("there is no file {}", path.display()), span);
     error.help.extend(windlass_base::diagnostic::did_you_mean(name, near.iter().map(String::as_str)));

@@ -388,7 +388,7 @@ fn strangers_file_reads_below_its_folder_and_writes_nothing() {
     std::fs::create_dir(&outside).unwrap();
     std::fs::write(outside.join("secret.txt"), "&TITEL secret\n").unwrap();
     let text = "&INSERT ../outside/secret.txt\n&INSERT link.txt\n&FILE MKDIR made\n&FILE RM own.txt\nMEDIT\n&DESCRIBE BODY B\n*P 0 0 0\nEND\n\
-                &EQUI\nPRCPOST\nEND\n&TYPE &F_READ(../outside/secret.txt X)\n&INSERT ../outs\n";
+                &EQUI\nPRCPOST\nEND\n&TYPE &F_READ(../outside/secret.txt X)\n&INSERT ../outs\nINMODEL -MOORDYN ../outside/secrets.txt\n";
     let uri = file(&inside, "m.cif", text);
     std::fs::write(inside.join("own.txt"), "own\n").unwrap();
     #[cfg(unix)]
@@ -409,6 +409,9 @@ fn strangers_file_reads_below_its_folder_and_writes_nothing() {
     assert!(listed(&said).iter().any(|one| one.0 == 0 && one.3.contains("outside of the script's folder")), "{said}");
     #[cfg(unix)]
     assert!(listed(&said).iter().any(|one| one.0 == 1 && one.3.contains("outside of the script's folder")), "{said}");
+    // a file that is not there is named no other way, and no name beside it is offered
+    assert!(listed(&said).iter().any(|one| one.0 == 13 && one.3.contains("outside of the script's folder")), "{said}");
+    assert!(!said.to_string().contains("did you mean"), "{said}");
     assert_eq!(client.ask("completion", &uri, at(12, 15))["items"], json!([]));
     // the link that leads out is no model of the pair either
     client.change(&uri, 2, "INMODEL\nEND\n");
