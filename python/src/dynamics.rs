@@ -167,7 +167,9 @@ impl Dynamics {
             return Err(PyValueError::new_err("the current or the depth is not finite"));
         }
         if let Some(depth) = depth.filter(|depth| *depth <= 0.0) {
-            return Err(PyValueError::new_err(format!("depth is {depth}: it is more than zero, or None without a bottom")));
+            return Err(PyValueError::new_err(format!(
+                "depth is {depth}: it is more than zero, or None without a bottom"
+            )));
         }
         let law = SeabedLaw {
             damping: seabed_damping,
@@ -192,7 +194,12 @@ impl Dynamics {
         for (at, line) in made.iter().enumerate() {
             for (end, name) in [(&line.anchor, "anchor"), (&line.fairlead, "fairlead")] {
                 if below(end) {
-                    let text = format!("line {}: its {name} at {} m is below the bottom at -{} m", at + 1, end.z, depth.unwrap_or_default());
+                    let text = format!(
+                        "line {}: its {name} at {} m is below the bottom at -{} m",
+                        at + 1,
+                        end.z,
+                        depth.unwrap_or_default()
+                    );
                     return Err(PyValueError::new_err(text));
                 }
             }
