@@ -82,9 +82,6 @@ impl<'py> Described<'py> {
     }
 }
 
-/// Over the depth: what an end may be below the bottom.
-const ROUNDING: f64 = 1e-9;
-
 /// A line by its properties.
 fn line(py: Python<'_>, number: usize, given: &Bound<'_, PyDict>) -> PyResult<CoupledLine> {
     let mut of = Described::new(given.clone(), format!("line {number}"));
@@ -189,21 +186,6 @@ impl Dynamics {
         let made: PyResult<Vec<CoupledLine>> =
             lines.iter().enumerate().map(|(at, given)| line(py, at + 1, given)).collect();
         let made = made?;
-        // a line that lies on the bottom has its ends there by rounding
-        let below = |at: &Vector3<f64>| depth.is_some_and(|depth| at.z < -depth * (1.0 + ROUNDING));
-        for (at, line) in made.iter().enumerate() {
-            for (end, name) in [(&line.anchor, "anchor"), (&line.fairlead, "fairlead")] {
-                if below(end) {
-                    let text = format!(
-                        "line {}: its {name} at {} m is below the bottom at -{} m",
-                        at + 1,
-                        end.z,
-                        depth.unwrap_or_default()
-                    );
-                    return Err(PyValueError::new_err(text));
-                }
-            }
-        }
         let stop = Arc::new(AtomicBool::new(false));
         let make = || CoupledLines::with_interrupt(made, around, dt, Arc::clone(&stop));
         let inner = interruptible::run(py, &stop, make)?.map_err(|error| engine_error(py, error))?;

@@ -4,7 +4,7 @@ use crate::arrow;
 use crate::errors::engine_error;
 use crate::svg::{Svg, escape};
 use numpy::IntoPyArray;
-use pyo3::exceptions::{PyIndexError, PyKeyError};
+use pyo3::exceptions::{PyIndexError, PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyDict, PyList};
 use std::sync::Arc;
@@ -13,6 +13,9 @@ use windlass::report::stored::{ColumnValues, StoredColumn};
 use windlass_base::diagnostic::suggest;
 use windlass_base::table::Cell;
 
+/// Units of SI that columns of studies have, and none.
+const SI_UNITS: [&str; 16] =
+    ["", "m", "m2", "m3", "N", "N-m", "N-m2", "N/m", "Pa", "rad", "rad/s", "s", "kg", "kg/m", "m/s", "m/s2"];
 /// Rows that a notebook shows.
 const SHOWN_ROWS: usize = 60;
 
@@ -143,9 +146,18 @@ impl Table {
     }
 
     /// The same in SI units: m, N, rad, s.
+    ///
+    /// # Errors
+    /// `ValueError`: a table of a study with other units, which are those of its scripts.
     fn in_si(&self) -> PyResult<Table> {
-        match self.kept.as_deref() {
-            Some(kept) => Ok(Table::new(hosted::in_si(kept))),
+        if let Some(kept) = self.kept.as_deref() {
+            return Ok(Table::new(hosted::in_si(kept)));
+        }
+        match self.columns.iter().find(|column| !SI_UNITS.contains(&column.unit.as_str())) {
+            Some(column) => Err(PyValueError::new_err(format!(
+                "{} is in {}: a table of a study has the units of its scripts",
+                column.long_name, column.unit
+            ))),
             None => Ok(Table::from_columns(&self.title, self.columns.clone())),
         }
     }

@@ -38,7 +38,7 @@ def test_ends_of_a_hanging_line_carry_its_weight():
 
 def test_ends_below_the_bottom_and_no_depth_are_refused():
     line = dict(length=900.0, mass=199.0, ea=8.54e8, diameter=0.18, elements=30, anchor=(-800, 0, -300), fairlead=(0, 0, -10), **BARE)
-    with pytest.raises(ValueError, match="line 1: its anchor at -300 m is below the bottom at -50 m"):
+    with pytest.raises(windlass.Error, match="line 1: its anchor at z -300 m is below the bottom at -50 m"):
         Dynamics([line], depth=50.0)
     for depth in (0.0, -5.0):
         with pytest.raises(ValueError, match="more than zero"):

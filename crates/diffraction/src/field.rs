@@ -67,7 +67,8 @@ pub struct ControlSurfaceDrift {
 
 /// Distance of a control surface from the bodies over their extent.
 const CONTROL_SHARE: f64 = 0.25;
-/// Distance of a control box from the hulls over the longest diagonal of the panels of its body, at least: nearer the flow is that of single panels.
+/// Distance of a control box from the hulls over the longest diagonal of the panels of its body, at least: a tenth of the side of a square one. Nearer the
+/// flow is that of single panels, and the drift there can be off by several times itself.
 const LEAST_GAP_SHARE: f64 = 0.07;
 /// Directions that a control box is tried in, over a quarter of a turn.
 const BOX_DIRECTIONS: usize = 18;

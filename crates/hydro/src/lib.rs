@@ -329,9 +329,14 @@ impl Floating {
     }
 }
 
+/// The heading of a pose (rad): where its x axis points on the plan, from the global x axis toward y.
+pub fn heading_of(pose: &Pose) -> f64 {
+    pose.axes[(1, 0)].atan2(pose.axes[(0, 0)])
+}
+
 /// The axes of the heading of a pose: z up, x where its own points on the plan. Those of a database.
 pub fn heading_axes(pose: &Pose) -> Matrix3<f64> {
-    *Rotation3::from_axis_angle(&Vector3::z_axis(), pose.axes[(1, 0)].atan2(pose.axes[(0, 0)])).matrix()
+    *Rotation3::from_axis_angle(&Vector3::z_axis(), heading_of(pose)).matrix()
 }
 
 /// A matrix of a database, of the axes of the heading, in global axes.

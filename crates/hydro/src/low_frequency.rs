@@ -163,8 +163,7 @@ pub struct LowFrequencyPosition {
 impl LowFrequencyPosition {
     /// A body without first-order motion in a pose.
     pub fn at_rest(pose: &Pose) -> Self {
-        let heading = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
-        LowFrequencyPosition { origin: pose.origin.xy(), heading }
+        LowFrequencyPosition { origin: pose.origin.xy(), heading: crate::heading_of(pose) }
     }
 
     /// Axes of the heading: x along it, z upward.

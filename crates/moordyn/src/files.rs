@@ -71,8 +71,8 @@ fn rows<'a>(text: &'a str, source: SourceId, skip: usize) -> Outcome<Vec<Row<'a>
     for (index, line) in text.split_inclusive('\n').enumerate() {
         let row = words(line, offset, source, true);
         offset += line.len();
-        let is_of_numbers = row.words.len() > 1 && row.words.iter().all(|word| word.value.parse::<f64>().is_ok());
-        if index < skip && is_of_numbers {
+        let is_of_numbers = || row.words.len() > 1 && row.words.iter().all(|word| word.value.parse::<f64>().is_ok());
+        if index < skip && is_of_numbers() {
             let text = format!("a row of numbers stands among the {skip} lines of heads");
             let error = Diagnostic::error(text, row.span).label("would not be read");
             return Err(error.help("the file begins with lines of a title, names and units"));

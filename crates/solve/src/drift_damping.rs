@@ -4,12 +4,12 @@ use nalgebra::{Matrix2, Rotation2, Vector2};
 use windlass_base::pose::Pose;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
-use windlass_hydro::Category;
 use windlass_hydro::database::attached::{
     VelocityEffect, coarse_slow_drift, mean_slow_drift, slow_drift_without_heading_slopes, velocity_effect,
 };
 use windlass_hydro::database::drift_damping::DriftByVelocity;
 use windlass_hydro::steady::Steady;
+use windlass_hydro::{Category, heading_of};
 use windlass_model::{Body, ClassError, Model};
 
 /// Share of the energy of a sea in waves for which the water is not deep that is let pass.
@@ -52,7 +52,7 @@ pub fn body_drift_dampings(model: &Model) -> Result<Vec<BodyDriftDamping>, Class
 fn of_body(model: &Model, body: &Body) -> Result<Option<BodyDriftDamping>, ClassError> {
     let Some(drift) = mean_slow_drift(model, body)? else { return Ok(None) };
     let (name, pose) = (body.name.clone(), Pose::from_place(&body.position));
-    let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
+    let yaw = heading_of(&pose);
     let factor = model.multipliers.factor(Category::WaveDrift.name(), &name);
     let on_plan = drift.damping_on_plan(yaw)? * factor;
     let turn = Rotation2::new(yaw);

@@ -90,7 +90,8 @@ pub fn source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSour
     }
 }
 
-/// As [`source`] before the bodies are solved: whatever databases they have, so that the same is computed again. [`settle_critical_damping`] follows.
+/// As [`source`] before the bodies are solved: whatever databases they have, so that the same is computed again. [`settle_critical_damping`] follows
+/// where [`has_critical_damping`].
 pub fn first_source(model: &Model, meshed: &MeshedBodies, is_asked: bool) -> DriftSource {
     let mut bare = model.clone();
     remove_databases(&mut bare, meshed);
@@ -104,22 +105,23 @@ pub fn place_warnings(source: &DriftSource) -> Vec<String> {
     warnings.map(|note| format!("mean drift: {}", note.text)).collect()
 }
 
+/// Whether motions wait for the added mass of all frequencies, of which damping of roll in per cent of critical is made.
+pub fn has_critical_damping(model: &Model, source: &DriftSource) -> bool {
+    let is_critical = |kind: &LoadKind| matches!(kind, LoadKind::RollDamping(given) if given.critical > 0.0);
+    matches!(source, DriftSource::Motions(_)) && model.loads.iter().any(|load| is_critical(&load.kind))
+}
+
 /// The same motions with damping of roll in per cent of critical by the added mass that was found.
-pub fn settle_critical_damping<'a>(
+pub fn settle_critical_damping(
     model: &Model,
     meshed: &MeshedBodies,
-    forces: impl Iterator<Item = &'a FrequencyForces>,
+    forces: &[FrequencyForces],
     source: &mut DriftSource,
 ) {
-    let is_critical = |kind: &LoadKind| matches!(kind, LoadKind::RollDamping(given) if given.critical > 0.0);
-    if !matches!(source, DriftSource::Motions(_)) || !model.loads.iter().any(|load| is_critical(&load.kind)) {
-        return;
-    }
-    let forces: Vec<&FrequencyForces> = forces.collect();
     let mut with_added_mass = model.clone();
     for (i, body) in meshed.bodies.iter().enumerate() {
         let turn = *Rotation3::from_axis_angle(&Vector3::z_axis(), -body.turn).matrix();
-        let own = |forces: &&FrequencyForces| {
+        let own = |forces: &FrequencyForces| {
             let block = forces.added_mass.fixed_view::<MOTIONS, MOTIONS>(MOTIONS * i, MOTIONS * i).into_owned();
             in_pose(&block, &Pose { axes: turn, ..Pose::default() })
         };

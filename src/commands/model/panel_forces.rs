@@ -727,7 +727,6 @@ fn solve(
             Err(why) => *drift = DriftSource::None(why),
         }
     }
-    let (mut solved, mut drifts): (Vec<WaveSolution>, Vec<BodyDrift>) = (Vec::new(), Vec::new());
     let go_on = |bar: &ProgressBar| {
         if job.is_interrupted() {
             bar.finish_and_clear();
@@ -735,26 +734,45 @@ fn solve(
         }
         Ok(())
     };
+    let mut drifts: Vec<BodyDrift> = Vec::new();
+    let mut add_drift = |drift: &mut DriftSource, waves: &WaveSolution| match panel_drift::of_frequency(
+        drift,
+        meshed,
+        &surfaces,
+        waves,
+        &request.headings,
+    ) {
+        Ok(row) => drifts.extend(row),
+        Err(why) => *drift = DriftSource::None(why),
+    };
+    // potentials take memory: they are kept only where the drift waits for all frequencies
+    let waits = panel_drift::has_critical_damping(&job.model, drift);
+    let (mut made, mut energy): (Vec<FrequencyForces>, Vec<f64>) = Default::default();
+    let mut waiting: Vec<WaveSolution> = Vec::new();
     let bar = progress_bar(meshed.frequencies.len());
     for frequency in &meshed.frequencies {
         go_on(&bar)?;
-        solved.push(problem.solve_waves(*frequency, &request.headings).map_err(refused)?);
-        bar.inc(1);
-    }
-    bar.finish_and_clear();
-    panel_drift::settle_critical_damping(&job.model, meshed, solved.iter().map(|waves| &waves.forces), drift);
-    let bar = progress_bar(meshed.frequencies.len());
-    for waves in &solved {
-        go_on(&bar)?;
-        match panel_drift::of_frequency(drift, meshed, &surfaces, waves, &request.headings) {
-            Ok(row) => drifts.extend(row),
-            Err(why) => *drift = DriftSource::None(why),
+        let waves = problem.solve_waves(*frequency, &request.headings).map_err(refused)?;
+        energy.push(waves.energy_difference());
+        made.push(waves.forces.clone());
+        if waits {
+            waiting.push(waves);
+        } else {
+            add_drift(drift, &waves);
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
-    let energy: Vec<f64> = solved.iter().map(WaveSolution::energy_difference).collect();
-    let made: Vec<FrequencyForces> = solved.into_iter().map(|waves| waves.forces).collect();
+    if waits {
+        panel_drift::settle_critical_damping(&job.model, meshed, &made, drift);
+        let bar = progress_bar(waiting.len());
+        for waves in &waiting {
+            go_on(&bar)?;
+            add_drift(drift, waves);
+            bar.inc(1);
+        }
+        bar.finish_and_clear();
+    }
     let mut drift_check = None;
     if meshed.bodies.len() == 1 {
         panel_drift::remove_noise(&mut drifts);
@@ -855,7 +873,7 @@ fn warn_of_standing(job: &mut Job, meshed: &MeshedBodies, span: Span) {
             [Dof::Z, Dof::Rx, Dof::Ry].into_iter().filter(|dof| !ignored.contains(dof)).map(Dof::word).collect();
         if !free.is_empty() {
             let text = format!(
-                "{} stands on the bottom, and no pressure of waves acts below it: its added mass, damping and wave forces of {} are those of its sides                  alone; -IGNORE {} holds it there",
+                "{} stands on the bottom, and no pressure of waves acts below it: its added mass, damping and wave forces of {} are those of its sides alone; -IGNORE {} holds it there",
                 body.name,
                 free.join(", "),
                 free.join(" ")

@@ -547,7 +547,7 @@ pub fn slow_drift_without_heading_slopes(model: &Model, body: &Body) -> Result<O
     let (Some(table), VelocityEffect::Acts(made)) = (drift_of(&attached.data), velocity_effect(model, body)?) else {
         return Ok(None);
     };
-    let yaw = super::excitation::yaw(&Pose::from_place(&body.position));
+    let yaw = crate::heading_of(&Pose::from_place(&body.position));
     let mut gap: f64 = 0.0;
     for (toward, _) in Steady::new(model)?.waves {
         gap = gap.max(made.heading_gap(toward.y.atan2(toward.x) - yaw)?);

@@ -90,11 +90,6 @@ impl Excitation {
     }
 }
 
-/// The yaw of a pose (rad): where its x axis points on the plan.
-pub(super) fn yaw(pose: &Pose) -> f64 {
-    pose.axes[(1, 0)].atan2(pose.axes[(0, 0)])
-}
-
 /// Six values in axes turned about z by an angle (rad), in global axes.
 pub(super) fn rotate_about_z(six: &Six, angle: f64) -> Six {
     let (sin, cos) = angle.sin_cos();

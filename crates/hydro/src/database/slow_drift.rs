@@ -16,14 +16,14 @@
 //! the drift; of a full QTF the current changes the mean alone.
 
 use super::drift_damping::DriftByVelocity;
-use super::excitation::{load_from_state, rotate_about_z, yaw};
+use super::excitation::{load_from_state, rotate_about_z};
 use super::interpolation::drift_at;
 use super::interpolation::{bracket_frequency, bracket_heading};
 use super::waves::{LANES, WaveGroup, WaveTable, groups};
 use crate::body_load::{BodyLoad, BodyStep, DynamicLoad, PreparedLoad, StatefulLoad};
 use crate::sea::Sea;
 use crate::steady::{Medium, Steady};
-use crate::{Category, Load, move_wrench, turning};
+use crate::{Category, Load, heading_of, move_wrench, turning};
 use nalgebra::{Complex, Matrix2, Matrix3, Matrix6, Rotation2, Vector2, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -253,7 +253,7 @@ impl SlowDrift {
     /// # Errors
     /// A heading in a gap of the table.
     pub fn damping_on_body(&self, pose: &Pose) -> Result<Matrix6<f64>, ClassError> {
-        Ok(self.damping_of_body(pose, &self.damping_on_plan(yaw(pose))?))
+        Ok(self.damping_of_body(pose, &self.damping_on_plan(heading_of(pose))?))
     }
 
     /// What the damping of a step that was begun makes of a velocity.
@@ -326,7 +326,7 @@ impl SlowDrift {
     /// # Errors
     /// A heading in a gap of the table.
     pub fn force_on_body(&self, pose: &Pose, time: f64) -> Result<Six, ClassError> {
-        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
+        let (arm, yaw) = (pose.axes * self.reference, heading_of(pose));
         let at = pose.origin + arm;
         Ok(move_wrench(&rotate_about_z(&self.force(time, (at.x, at.y), yaw)?, yaw), arm))
     }
@@ -372,7 +372,7 @@ impl BodyLoad for SlowDrift {
     }
 
     fn mean_load(&self, pose: &Pose) -> Result<Load, ClassError> {
-        let (arm, yaw) = (pose.axes * self.reference, yaw(pose));
+        let (arm, yaw) = (pose.axes * self.reference, heading_of(pose));
         let (mean, change) = self.mean_at(yaw)?;
         let force = rotate_about_z(&mean, yaw);
         let [x, y, _, rx, ry, _] = force.into();
@@ -417,7 +417,7 @@ impl StatefulLoad for SlowDrift {
         let mut force = self.force_on_body(ahead.pose, ahead.time)?;
         if self.is_damped {
             let ramp = self.sea.as_ref().map_or(1.0, |sea| sea.factor(ahead.time)).powi(2);
-            let on_plan = self.damping_on_plan(yaw(ahead.pose))? * ramp;
+            let on_plan = self.damping_on_plan(heading_of(ahead.pose))? * ramp;
             if let Some(stream) = &self.stream {
                 let surface = stream.around.tide;
                 let [now, mean] = [stream.streams_at_time(ahead.time), stream.mean()]

@@ -10,8 +10,8 @@ use windlass_nonlinear::bisect;
 
 /// From this exponent on a sea is long-crested.
 pub const LONG_CRESTED: f64 = 200.0;
-/// A part of a sea with less of its energy is none.
-const LEAST_SHARE: f64 = 1e-9;
+/// A part of a sea with less of its energy is none: it needs no heading of a database.
+const LEAST_SHARE: f64 = 1e-4;
 /// Halvings of the half circle after which an angle is known to 1e-12.
 const ANGLE_HALVINGS: usize = 42;
 /// The golden section less one.
@@ -39,8 +39,9 @@ pub fn parts(number: usize, from: f64, exponent: f64) -> Vec<([f64; 2], f64)> {
     let turn = |i: usize| PI * ((i as f64 + 0.5) / number as f64 - 0.5);
     let weight = |i: usize| turn(i).cos().powf(exponent);
     let whole: f64 = (0..number).map(weight).sum();
-    let all = (0..number).map(|i| (travel(from + turn(i)), weight(i) / whole));
-    all.filter(|(_, share)| *share > LEAST_SHARE).collect()
+    let kept: Vec<usize> = (0..number).filter(|i| weight(*i) > LEAST_SHARE * whole).collect();
+    let rest: f64 = kept.iter().map(|i| weight(*i)).sum();
+    kept.iter().map(|i| (travel(from + turn(*i)), weight(*i) / rest)).collect()
 }
 
 /// The unit vector of travel of waves that come from a direction (rad).

@@ -15,7 +15,7 @@ use windlass_hydro::database::interaction::{InteractionRadiation, interaction_ra
 use windlass_hydro::database::{DatabaseLookup, mean_drift};
 use windlass_hydro::roll_damping::fix_critical_damping;
 use windlass_hydro::sea::dispersion::wave_number;
-use windlass_hydro::{Category, in_heading};
+use windlass_hydro::{Category, heading_of, in_heading};
 use windlass_model::{
     Amplitudes, AttachedDatabase, Body, ClassError, Database, DriftMethod, DriftTable, LoadKind, Model, Part, PartLoad,
     Piece, TimeStep, WaveAction,
@@ -120,7 +120,7 @@ impl Floats {
             .map(|category| model.multipliers.factor(category.name(), name));
         let slow = matches!(attached.drift, DriftMethod::Newman | DriftMethod::Full);
         let table = || attached.data.drift.clone().or_else(|| attached.data.qtf.as_ref().map(mean_drift));
-        let yaw = pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]);
+        let yaw = heading_of(pose);
         let by_velocity = match velocity_effect(model, body)? {
             VelocityEffect::Acts(made) => Some(made),
             VelocityEffect::LeftOut(_) | VelocityEffect::OffByFactor | VelocityEffect::None => None,
@@ -198,7 +198,7 @@ impl LinearSystem {
     /// `w - k V cos b`, at which motions, added mass and damping are taken; forces of the waves stay those of their own frequency
     /// without speed. What else speed changes in radiation and excitation is left out.
     pub fn set_speed(&mut self, speed: f64) {
-        let yaw = self.poses.first().map_or(0.0, |pose| pose.axes[(1, 0)].atan2(pose.axes[(0, 0)]));
+        let yaw = self.poses.first().map_or(0.0, heading_of);
         let (sin, cos) = yaw.sin_cos();
         self.speed = [-speed * cos, -speed * sin];
         if speed != 0.0 {
