@@ -160,7 +160,7 @@ pub fn databases(data: &[u8]) {
         .filter_map(|part| part.split_once('\n'))
         .map(|(name, text)| SourceFile { name: name.to_string(), text: text.to_string() })
         .collect();
-    let scale = WamitScale { length: 1.0, density: 1025.0, gravity: 9.80665, depth: None, body: None };
+    let scale = WamitScale { length: 1.0, density: 1025.0, gravity: 9.80665, depth: None, body: None, origin: None };
     match kind % 4 {
         1 => drop(wamit::read("fuzzed", &files, &scale)),
         2 => drop(nemoh::read("fuzzed", &files, None)),

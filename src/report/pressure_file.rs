@@ -11,6 +11,9 @@ use netcdf3::{DataSet, FileWriter, Version};
 use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
 use windlass_hydro::database::capytaine::DRIFT_METHOD;
 
+/// Share of the largest exciting force of a motion over all frequencies by which a difference is measured at least.
+const LEAST_OF_PEAK: f64 = 0.2;
+
 /// Names of the motions, as Capytaine has them.
 const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
 /// The attribute that tells whether a file is of the same mesh and settings.
@@ -167,7 +170,12 @@ impl PressureFile<'_> {
         )?;
         made.numbers("body_heading", &["body"], "rad", "heading of the body", points(&|body| vec![body.heading]))?;
         made.numbers("disp_mass", &["body"], "kg", "displaced mass", points(&|body| vec![body.mass]))?;
-        let differences: Vec<_> = self.forces.iter().map(FrequencyForces::excitation_difference).collect();
+        let mut peaks: Vec<f64> = Vec::new();
+        for largest in self.forces.iter().map(FrequencyForces::largest_excitation) {
+            peaks.resize(largest.len(), 0.0);
+            peaks.iter_mut().zip(largest).for_each(|(peak, own)| *peak = peak.max(LEAST_OF_PEAK * own));
+        }
+        let differences: Vec<_> = self.forces.iter().map(|own| own.excitation_difference_above(&peaks)).collect();
         let haskind = differences.iter().map(|made| made.map_or(0.0, |made| made.share)).collect();
         let text = "difference of both exciting forces over the largest of the motion, in that where it is largest";
         made.numbers("haskind_difference", &["frequency"], "1", text, haskind)?;
@@ -176,7 +184,7 @@ impl PressureFile<'_> {
         let text =
             "largest difference of the damping from the energy of the waves far away, over the largest of its kind";
         made.numbers("energy_difference", &["frequency"], "1", text, self.energy.to_vec())?;
-        let asymmetry = self.forces.iter().map(FrequencyForces::asymmetry).collect();
+        let asymmetry = self.forces.iter().map(|forces| forces.asymmetry).collect();
         let text = "largest difference of added mass and damping from their transposes, over the largest of their kind";
         made.numbers("asymmetry", &["frequency"], "1", text, asymmetry)?;
         match self.drift {

@@ -1,6 +1,5 @@
 //! The incident wave.
 
-use crate::panel::Panel;
 use crate::rankine::mirrored;
 use crate::symmetry::SymmetryClass;
 use nalgebra::{Complex, Vector3};
@@ -51,13 +50,20 @@ impl IncidentWave {
         (potential, Vector3::new(potential * along * cosine, potential * along * sine, at_surface * slope))
     }
 
-    /// The part of its potential on a panel that is in a symmetry class, and its derivative along the normal out of the water.
-    pub fn in_class(&self, panel: &Panel, heading: f64, class: SymmetryClass, images: &[[f64; 2]]) -> (C, C) {
+    /// The part of its potential at a point of a panel that is in a symmetry class, and its derivative along the normal out of the water; the normal of the panel
+    /// is into it.
+    pub fn in_class(
+        &self,
+        (point, normal): (&Vector3<f64>, &Vector3<f64>),
+        heading: f64,
+        class: SymmetryClass,
+        images: &[[f64; 2]],
+    ) -> (C, C) {
         let mut sum = (C::default(), C::default());
         for image in images {
             let share = class.factor(*image) / images.len() as f64;
-            let (potential, gradient) = self.at(&mirrored(&panel.centroid, *image), heading);
-            let normal = -mirrored(&panel.normal, *image);
+            let (potential, gradient) = self.at(&mirrored(point, *image), heading);
+            let normal = -mirrored(normal, *image);
             let by_normal = gradient.x * normal.x + gradient.y * normal.y + gradient.z * normal.z;
             sum = (sum.0 + potential * share, sum.1 + by_normal * share);
         }

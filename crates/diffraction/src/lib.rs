@@ -28,6 +28,7 @@
 #![forbid(unsafe_code)]
 #![deny(missing_docs)]
 
+mod curvature;
 mod dispersion;
 mod drift_damping;
 mod error;

@@ -3,6 +3,7 @@
 //! Polynomials of second degree carry a smooth hull. At an upright waterline the potential has a part with a logarithm where the motion of the hull does not fit
 //! the condition of the free surface, which the fit keeps there. Beside sharp edges the slope of the potential has no bound: the panels have to be small there.
 
+use crate::curvature::{SAME_CORNER_SHARE, SMOOTH_COSINE};
 use crate::mesh::SurfaceElement;
 use crate::near_field::RigidMotion;
 use crate::rankine::mirrored;
@@ -18,10 +19,6 @@ type C = Complex<f64>;
 /// Two linear functions and three of second degree.
 type Terms = Vector5<f64>;
 
-/// Panels whose normals are apart by more than this cosine (40 degrees) meet at an edge, over which the velocity jumps.
-const SMOOTH_COSINE: f64 = 0.766;
-/// Corners that are nearer than this share of the size of the hulls are one.
-const SAME_CORNER_SHARE: f64 = 1e-7;
 /// A side is on the waterline where its ends are below it by less than this share of the diagonal of its panel.
 const LEVEL_SHARE: f64 = 1e-5;
 /// What of the diagonal keeps equations soluble where there are fewer panels around than functions.

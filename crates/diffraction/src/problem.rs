@@ -1,15 +1,17 @@
 //! Bodies in waves: added mass, damping and wave exciting forces at a frequency.
 
+use crate::curvature::normal_slopes;
 use crate::error::DiffractionError;
 use crate::gmres::{self, Columns};
 use crate::incident_wave::IncidentWave;
 use crate::mesh::{HullMesh, MirrorPlanes};
 use crate::panel::Panel;
+use crate::quality::asymmetry;
 use crate::rankine::{LevelImage, RankinePart, mirrored, rankine_parts};
 use crate::symmetry::SymmetryClass;
 use crate::wave_solution::WaveSolution;
 use crate::wave_system::{Accuracy, WaveKernel, WaveSystem, wave_systems};
-use nalgebra::{Complex, DMatrix, Vector3};
+use nalgebra::{Complex, DMatrix, Matrix3, Vector3};
 use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
@@ -69,6 +71,8 @@ pub struct DiffractionProblem {
     /// Of each class: `n_j` on the panels, n out of the water, panel by panel and then motion by motion.
     velocities: Vec<Vec<f64>>,
     rankine: Vec<RankinePart>,
+    /// Of each panel of the hulls: how its normal turns along it (1/m).
+    normal_slopes: Vec<Matrix3<f64>>,
     motion_count: usize,
     bodies: Arc<[BodyPart]>,
     /// Largest horizontal distance between points of the hulls and their images (m).
@@ -99,7 +103,10 @@ pub enum FrequencyLimit {
 pub struct FrequencyForces {
     /// Frequency (rad/s).
     pub frequency: f64,
-    /// Added mass (kg, kg m, kg m2): row the force, column the motion.
+    /// Added mass (kg, kg m, kg m2): row the force, column the motion. It is symmetric, as is the damping.
+    ///
+    /// What couples a translation and a rotation is the force by the potential of the rotation in the direction of the translation, both ways, as in Haskind's
+    /// relation: in long waves, where bodies move with the water, what one is off the other takes back. Others are the mean of both ways.
     pub added_mass: DMatrix<f64>,
     /// Radiation damping (N s/m, N s, N m s).
     pub damping: DMatrix<f64>,
@@ -109,8 +116,13 @@ pub struct FrequencyForces {
     pub pressure_excitation: Vec<Vec<C>>,
     /// Products with the matrices of the classes until the equations were solved.
     pub iterations: usize,
+    /// The largest difference of added mass or damping from its transpose before they were made symmetric, over the largest of the same kind: forces by
+    /// translations, moments by rotations and what couples them apart. It measures the mesh.
+    pub asymmetry: f64,
 }
 
+/// Over the depth: what corners of panels on the bottom may be below it.
+const ROUNDING: f64 = 1e-9;
 /// Share of the largest exciting force of its kind on its body below which a motion is measured by that share.
 const LEAST_OF_KIND: f64 = 0.05;
 
@@ -138,6 +150,19 @@ impl FrequencyForces {
     /// less than a twentieth of the largest of its kind (forces or moments) on its body, as one that symmetry leaves without any, is measured by that
     /// twentieth. It measures the mesh; none where there are no headings.
     pub fn excitation_difference(&self) -> Option<ExcitationDifference> {
+        self.excitation_difference_above(&[])
+    }
+
+    /// The largest exciting force of each motion at all headings (N, N m for an amplitude of 1 m), by Haskind's relation.
+    pub fn largest_excitation(&self) -> Vec<f64> {
+        let count = self.excitation.first().map_or(0, Vec::len);
+        let largest = |motion: usize| self.excitation.iter().map(|row| row[motion].norm()).fold(0.0, f64::max);
+        (0..count).map(largest).collect()
+    }
+
+    /// As [`FrequencyForces::excitation_difference`], where a motion is measured by a force of its own at least (N, N m): a share of its largest at all
+    /// frequencies, since at a frequency where its force vanishes a small difference is much of it.
+    pub fn excitation_difference_above(&self, least: &[f64]) -> Option<ExcitationDifference> {
         let count = self.excitation.first().map_or(0, Vec::len);
         let mut motions = vec![[0.0_f64; 2]; count];
         for (by_haskind, by_pressure) in self.excitation.iter().zip(&self.pressure_excitation) {
@@ -153,7 +178,7 @@ impl FrequencyForces {
             motions.iter().skip(first).take(3).fold(0.0, |most: f64, [_, largest]| most.max(*largest))
         };
         let share = |(motion, [difference, largest]): (usize, &[f64; 2])| {
-            let measure = largest.max(LEAST_OF_KIND * kind(motion));
+            let measure = largest.max(LEAST_OF_KIND * kind(motion)).max(least.get(motion).copied().unwrap_or(0.0));
             (measure > 0.0).then_some(ExcitationDifference { motion, share: difference / measure })
         };
         let found = motions.iter().enumerate().filter_map(share);
@@ -214,7 +239,7 @@ impl DiffractionProblem {
         let corners = || mesh.panels().iter().flat_map(|panel| panel.corners());
         let draught = corners().fold(0.0, |most: f64, corner| most.max(-corner.z));
         if let Some(depth) = water.depth
-            && !(depth.is_finite() && depth >= draught)
+            && !(depth.is_finite() && depth * (1.0 + ROUNDING) >= draught)
         {
             return Err(DiffractionError::Depth { depth, draught });
         }
@@ -232,7 +257,7 @@ impl DiffractionProblem {
         let rankine = rankine_parts(&mesh, &classes, &velocities, &LevelImage::of_all_frequencies(water.depth));
         let motion_count = MOTIONS * bodies.len();
         let mut first = 0;
-        let bodies = bodies
+        let bodies: Arc<[BodyPart]> = bodies
             .iter()
             .map(|body| {
                 let own = first..first + body.mesh.hull().len();
@@ -240,6 +265,8 @@ impl DiffractionProblem {
                 BodyPart { panels: own, origin: body.origin }
             })
             .collect();
+        let ranges: Vec<Range<usize>> = bodies.iter().map(|body| body.panels.clone()).collect();
+        let normal_slopes = normal_slopes(&mesh, &ranges);
         Ok(DiffractionProblem {
             mesh,
             water,
@@ -247,6 +274,7 @@ impl DiffractionProblem {
             motions,
             velocities,
             rankine,
+            normal_slopes,
             motion_count,
             bodies,
             reach,
@@ -331,7 +359,46 @@ impl DiffractionProblem {
                 }
             }
         }
-        Ok(added_mass)
+        Ok(symmetric(&added_mass))
+    }
+
+    /// Integrals of an incident wave over the hulls. Its pressure varies along a panel, and so do arm and normal of a moment: the middle alone leaves their product
+    /// off by the square of the panel, and the roll of a wide hull in long waves is a small rest of such moments.
+    fn incident_parts(
+        &self,
+        wave: &IncidentWave,
+        heading: f64,
+        (class, motions): (SymmetryClass, &[usize]),
+        images: &[[f64; 2]],
+    ) -> IncidentParts {
+        let panels = self.mesh.panels();
+        let count = images.len() as f64;
+        let at = |point: &Vector3<f64>, panel: &Panel| wave.in_class((point, &panel.normal), heading, class, images);
+        let middles: Vec<(C, C)> = panels.iter().map(|panel| at(&panel.centroid, panel)).collect();
+        let mut forces = vec![C::default(); motions.len()];
+        for (index, part) in self.bodies.iter().enumerate() {
+            let own = panels.iter().zip(&middles).zip(&self.normal_slopes);
+            for ((panel, (potential, _)), slopes) in own.take(part.panels.end).skip(part.panels.start) {
+                let arm = panel.centroid - part.origin;
+                let middle = normal_velocities(panel, &part.origin).map(|velocity| potential * (velocity * panel.area));
+                let mut own = middle;
+                for (point, area) in panel.rule() {
+                    // the normal out of the water turns along a hull that is not flat, which on a sphere takes back what the arm adds
+                    let step = point - panel.centroid;
+                    let lever = panel.normal.cross(&step) - arm.cross(&(slopes * step));
+                    let more = (at(point, panel).0 - potential) * *area;
+                    own.iter_mut().skip(3).zip(lever.iter()).for_each(|(sum, lever)| *sum += more * *lever);
+                }
+                for (force, motion) in forces.iter_mut().zip(motions) {
+                    if motion / MOTIONS == index {
+                        *force += own[motion % MOTIONS] * count;
+                    }
+                }
+            }
+        }
+        let hull = self.mesh.hull_count();
+        let fluxes = panels.iter().zip(&middles).take(hull).map(|(panel, (_, by))| by * (panel.area * count)).collect();
+        IncidentParts { potentials: middles.into_iter().map(|(potential, _)| potential).collect(), forces, fluxes }
     }
 
     /// Solves the radiation problems and the diffraction problem of each heading (rad, where the waves go to, 0 along x).
@@ -370,6 +437,7 @@ impl DiffractionProblem {
             excitation: vec![vec![C::default(); count]; headings.len()],
             pressure_excitation: vec![vec![C::default(); count]; headings.len()],
             iterations: 0,
+            asymmetry: 0.0,
         };
         let surface = self.mesh.surface();
         let (_, patch_damping) = self.mesh.patches();
@@ -383,13 +451,13 @@ impl DiffractionProblem {
             for motion in 0..motions.len() {
                 right.column_mut(motion).copy_from_slice(system.radiation.column(motion));
             }
-            let incident: Vec<Vec<(C, C)>> = headings
+            let incident: Vec<IncidentParts> = headings
                 .iter()
-                .map(|heading| panels.iter().map(|panel| wave.in_class(panel, *heading, *class, &images)).collect())
+                .map(|heading| self.incident_parts(&wave, *heading, (*class, motions), &images))
                 .collect();
-            for (index, potentials) in incident.iter().enumerate() {
+            for (index, parts) in incident.iter().enumerate() {
                 let side = right.column_mut(motions.len() + index);
-                for (value, (potential, _)) in side.iter_mut().zip(potentials) {
+                for (value, potential) in side.iter_mut().zip(&parts.potentials) {
                     *value = potential * (4.0 * PI);
                 }
             }
@@ -420,23 +488,18 @@ impl DiffractionProblem {
                     made.damping[(*force, *motion)] = integral.im * frequency;
                 }
                 let radiated = solved.column(column);
-                for (index, potentials) in incident.iter().enumerate() {
-                    let pressure = integrate(solved.column(motions.len() + index), column);
-                    let own = velocities.iter().skip(column).step_by(motions.len());
-                    let haskind: C = potentials
-                        .iter()
-                        .zip(radiated)
-                        .zip(own)
-                        .zip(&weights)
-                        .map(|((((incident, by_normal), radiated), n), area)| {
-                            (incident * *n - radiated * by_normal) * *area
-                        })
-                        .sum();
+                for (index, parts) in incident.iter().enumerate() {
+                    let total = solved.column(motions.len() + index);
+                    let scattered: Vec<C> =
+                        total.iter().zip(&parts.potentials).map(|(total, own)| total - own).collect();
+                    let pressure = parts.forces[column] + integrate(&scattered, column);
+                    let flux: C = radiated.iter().zip(&parts.fluxes).map(|(radiated, flux)| radiated * flux).sum();
+                    let haskind = parts.forces[column] - flux;
                     // both waves meet the damped condition, the incident one alone does not
                     let at_patches = |i: usize, epsilon: &f64| -> C {
                         let at = self.mesh.hull_count() + i;
                         let area = panels[at].area * images.len() as f64;
-                        potentials[at].0 * radiated[at] * C::new(0.0, epsilon * nu * area)
+                        parts.potentials[at] * radiated[at] * C::new(0.0, epsilon * nu * area)
                     };
                     let damped: C = patch_damping.iter().enumerate().map(|(i, epsilon)| at_patches(i, epsilon)).sum();
                     let haskind = haskind + damped;
@@ -446,6 +509,9 @@ impl DiffractionProblem {
                 }
             }
         }
+        made.asymmetry = asymmetry(&made.added_mass).max(asymmetry(&made.damping));
+        made.added_mass = symmetric(&made.added_mass);
+        made.damping = symmetric(&made.damping);
         let amplitude = kernel.amplitude();
         Ok(WaveSolution {
             forces: made,
@@ -461,6 +527,26 @@ impl DiffractionProblem {
             diffracted,
         })
     }
+}
+
+/// Integrals of an incident wave over the hulls in a symmetry class.
+struct IncidentParts {
+    /// Its potential in the middle of each panel, lids included.
+    potentials: Vec<C>,
+    /// Of its potential times the normal velocity of each motion.
+    forces: Vec<C>,
+    /// Of each panel of the hulls: of its derivative along the normal out of the water, images included.
+    fluxes: Vec<C>,
+}
+
+/// A matrix of motions as it is by one potential for both of a pair; see [`FrequencyForces::added_mass`].
+fn symmetric(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+    let turns = |motion: usize| motion % MOTIONS >= MOTIONS / 2;
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |force, motion| match (turns(force), turns(motion)) {
+        (true, false) => matrix[(motion, force)],
+        (false, true) => matrix[(force, motion)],
+        _ => 0.5 * (matrix[(force, motion)] + matrix[(motion, force)]),
+    })
 }
 
 /// The panels of patches that damp, with their damping, looking up.

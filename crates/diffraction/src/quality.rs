@@ -1,7 +1,6 @@
 //! What the panels of a mesh and a solution on them are worth.
 
 use crate::mesh::HullMesh;
-use crate::problem::FrequencyForces;
 use crate::rankine::mirrored;
 use crate::wave_solution::WaveSolution;
 use nalgebra::{Complex, DMatrix, Vector3};
@@ -126,13 +125,9 @@ fn crosses(from: &Vector3<f64>, ray: &Vector3<f64>, [a, b, c, d]: &[Vector3<f64>
     meets(a, b, c) || meets(a, c, d)
 }
 
-impl FrequencyForces {
-    /// The largest difference of added mass or damping from its transpose, over the largest of the same kind: forces by translations, moments by
-    /// rotations and what couples them apart.
-    pub fn asymmetry(&self) -> f64 {
-        difference(&self.added_mass, &self.added_mass.transpose())
-            .max(difference(&self.damping, &self.damping.transpose()))
-    }
+/// The largest difference of a matrix of motions from its transpose, over the largest of the same kind.
+pub(crate) fn asymmetry(matrix: &DMatrix<f64>) -> f64 {
+    difference(matrix, &matrix.transpose())
 }
 
 /// The largest difference of two matrices of motions over the largest entry of the first, kind by kind.

@@ -80,6 +80,12 @@ const ULEN: OptionSpec = OptionSpec::ours(
     "length by which WAMIT made its output dimensionless",
 )
 .default("one metre");
+const XBODY: OptionSpec = OptionSpec::ours(
+    "-XBODY",
+    &[number("X", Dim::Length, "along the x axis of the run"), number("Y", Dim::Length, "along its y axis")],
+    "where WAMIT has the origin of the body, XBODY of its run: phases refer to the global origin there, moments to the body",
+)
+.default("0 0; of a run of several bodies that is warned of");
 const NEMOH: OptionSpec = OptionSpec::ours(
     "-NEMOH",
     &[ValueSpec::new("FOLDER", Kind::File, "folder of Nemoh.cal")],
@@ -124,7 +130,7 @@ const AT: OptionSpec = OptionSpec::ours(
         number("Y", Dim::Length, "in the body"),
         number("Z", Dim::Length, "in the body"),
     ],
-    "where the origin of the source stands in the body; its axes are those of the body",
+    "where the origin of the source stands in the body, of -WAMIT that of the body in its run, of a file of G_PRESSURE the origin that the body had there; axes are those of the body",
 )
 .default("the body's origin; of -AQWA where its centre of gravity is that of the body");
 const SYMMETRIC: OptionSpec =
@@ -165,6 +171,7 @@ static SPEC: CommandSpec = CommandSpec {
     options: &[
         WAMIT,
         ULEN,
+        XBODY,
         NEMOH,
         CAPYTAINE,
         AQWA,
@@ -237,14 +244,16 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         .map_or(0.0, |b| Mass::from_parts(job.model.parts_of(b), job.model.defaults.gravity).mass);
     let data = &made.data;
     let radiation = windlass_hydro::database::radiation::Radiation::new(data);
+    // of bodies that were solved together each has its own
+    let from = if data.interactions.is_empty() { data.source.clone() } else { format!("{name}, {}", data.source) };
     for text in &data.remarks {
-        job.warn(format!("{}: {text}", data.source), source);
+        job.warn(format!("{from}: {text}"), source);
     }
     if radiation.as_ref().is_some_and(|radiation| radiation.has_one_frequency) {
-        job.remark(format!("{}: one frequency serves motions at it; runs in time need more", data.source), source);
+        job.remark(format!("{from}: one frequency serves motions at it; runs in time need more"), source);
     } else if let Some(radiation) = radiation {
         let (text, is_warning) = radiation.quality.sentence(data.infinite.is_some());
-        let text = format!("{}: {text}", data.source);
+        let text = format!("{from}: {text}");
         match (is_warning, data.infinite) {
             (true, _) => job.warn(text, source),
             (false, None) => job.remark(text, source),
@@ -343,7 +352,8 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
                 ));
             }
             let length = args.option_number(&ULEN).unwrap_or(1.0);
-            wamit::read(name, &files, &WamitScale { length, density, gravity, depth, body })
+            let origin = args.option(&XBODY).map(|given| given.numbers_or_zero(const { XBODY.numbers(["X", "Y"]) }));
+            wamit::read(name, &files, &WamitScale { length, density, gravity, depth, body, origin })
         }
         _ if source.is(&NEMOH) => {
             let n = body.unwrap_or(1) - 1;

@@ -54,6 +54,9 @@ const USUAL_PANELS_A_WAVE: f64 = 16.0;
 const USUAL_FREQUENCIES: [f64; 3] = [0.1, 0.05, 2.0];
 /// Exciting forces by pressure and by Haskind's relation that differ by more than this share of the largest are warned of.
 const POOR_EXCITATION: f64 = 0.05;
+/// Water below the keel less deep than this share of a panel is warned of: with a half, added mass in heave of a barge with a tenth of its draught below it is
+/// 2 % off.
+const LEAST_GAP_OF_PANEL: f64 = 0.5;
 /// A bottom nearer to the keel than this share of the draught is at it: its image would lie on the panels.
 const LEAST_CLEARANCE: f64 = 1e-3;
 const HULL_HELP: &str =
@@ -211,7 +214,9 @@ impl MeshedBodies {
         let area: f64 = others.iter().map(|hull| hull.area).sum();
         let usual = (area / (USUAL_PANELS * others.len().max(1) as f64)).sqrt();
         let longest = own.iter().map(|hull| hull.longest_side()).fold(0.0, f64::max);
-        let size = request.size.unwrap_or_else(|| usual.max(longest));
+        // panels larger than the faces are the faces
+        let widest = hulls.iter().map(|(_, _, hull)| hull.longest_side()).fold(0.0, f64::max);
+        let size = request.size.map_or(usual.max(longest), |size| size.min(widest));
         let of_hull = |hull: &WettedHull| match request.size {
             Some(size) => size,
             None if hull.has_own_panels => hull.longest_side(),
@@ -349,7 +354,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 6));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 7));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size, self.edge_share].into_iter());
@@ -625,6 +630,17 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     if let Some(why) = kept.as_ref().and_then(|bytes| capytaine::attribute(bytes, NO_DRIFT)) {
         drift = DriftSource::None(why);
     }
+    // what cannot be read is computed anew
+    let is_whole = |bytes: &Vec<u8>| meshed.databases(bytes).is_ok() && Quality::read(bytes).is_ok();
+    let (read_from, kept) = if kept.as_ref().is_some_and(|bytes| !is_whole(bytes)) {
+        if let Some(path) = &read_from {
+            job.remark(format!("{} is damaged: the results are computed", path.display()), span);
+        }
+        drift = panel_drift::first_source(&job.model, &meshed, request.has_drift);
+        (None, None)
+    } else {
+        (read_from, kept)
+    };
     let bytes = match kept {
         Some(bytes) => bytes,
         None => solve(job, &meshed, &mut drift, request, &key)?,
@@ -634,7 +650,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     match &read_from {
         Some(path) => job.say(&format!("read {}: of the same mesh and settings", path.display())),
         None => {
-            if let Some(path) = &request.kept {
+            if let Some(path) = request.kept.as_ref().filter(|path| matching_file(path, &key).is_none()) {
                 let text = format!("{} is of another mesh or other settings: the results are computed", path.display());
                 job.remark(text, span);
             }
@@ -891,7 +907,7 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span
         let finer = meshed.size * POOR_EXCITATION / poor;
         let text = format!(
             "{all}: the exciting forces of {} by pressure and by Haskind's relation differ by {:.1} % of the largest at a period of {:.2} s, more than {:.0} %: the panels are \
-             too large for it, and it may be short by as much; about -PANEL {finer:.2} would agree",
+             too large for it, and both may be off to one side by several times that; motions are by less, as the radiation is off alike; about -PANEL {finer:.2} would agree",
             quality.worst_motion(meshed, at),
             100.0 * poor,
             TAU / meshed.frequencies.get(at).copied().unwrap_or(f64::NAN),
@@ -925,6 +941,18 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span
             shortest / POOR_PANELS_A_WAVE
         );
         job.warn(text, span);
+    }
+    for body in meshed.bodies.iter().filter(|body| !body.stands) {
+        let clearance = meshed.water.depth.map_or(f64::INFINITY, |depth| depth - body.hull.draught());
+        if clearance < LEAST_GAP_OF_PANEL * meshed.size {
+            let text = format!(
+                "{}: the bottom is {clearance:.2} m below its keel, less than half a panel of {:.2} m: the water between needs smaller panels, -PANEL {:.2} at most",
+                body.name,
+                meshed.size,
+                clearance / LEAST_GAP_OF_PANEL
+            );
+            job.warn(text, span);
+        }
     }
     for body in meshed.bodies.iter().filter(|body| !body.has_lid) {
         let text =
@@ -1060,7 +1088,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
     }
     table.note(
-        "Haskind: difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion, in that where it is largest",
+        "Haskind: difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion at the period, and of a fifth of its largest at all periods at least, in that where it is largest",
     );
     if !meshed.lids.is_empty() {
         table.note("the surface of each damping lid takes energy from the waves by its epsilon: what stands here is that of the epsilon that was given, which measurements or a model of the losses have to tell");

@@ -457,11 +457,15 @@ fn two_barges_by_panels_have_the_forces_of_capytaine_on_same_mesh() {
             values.push((row[1].clone(), is_moment(i), made * phase, given));
         } else {
             let j = number(3) as usize;
+            // the moment by a translation is the force by the rotation
+            if is_moment(i) > is_moment(j) {
+                continue;
+            }
             let made = block(i / 6, j / 6, &row[1], at)[(i % 6, j % 6)];
             values.push((row[1].clone(), is_moment(i) + is_moment(j), made.into(), given));
         }
     }
-    assert!(values.len() > 900);
+    assert!(values.len() > 700, "{}", values.len());
     for (what, kind, made, given) in &values {
         let alike = values.iter().filter(|other| other.0 == *what && other.1 == *kind);
         let peak = alike.fold(0.0, |most: f64, other| most.max(other.3.norm()));
@@ -628,6 +632,29 @@ fn trimmed_barge_moves_as_by_capytaine_on_its_trimmed_hull() {
         // of pitch in head waves
         let (made, exact) = (made[4].norm().to_degrees(), row[6]);
         assert!((made - exact).abs() < 0.02 * 2.05, "{} deg, {} s: {made} for {exact}", row[0], row[1]);
+    }
+}
+
+#[test]
+fn wide_barge_rolls_as_by_capytaine_on_ever_finer_panels() {
+    // tests/data/wide_barge/make.py: what sway and roll in beam waves go to by the square of the panel, where 2,560 panels by cosines are 10 % off in roll at 8 s
+    // still; panels of 2 m, 3 % of the roll at 5 s. The force of a rotation in the direction of a translation stands for the moment of the translation too:
+    // with that by its pressure roll was 6 % off at 6 s, 19 % at 8 s and 13 % at 30 s
+    let records = "&DIMEN -DIMEN METERS KN\n&DEFAULT -WATER 1025 -G 9.80665\nMEDIT\n&DESCRIBE BODY S\n*G 0 0 1\n&SURFACE\nBLOCK HULL -15 -5 -3 15 5 5\nEND_&SURFACE\n\
+                   END\n&WEIGHT -COMPUTE S 1 4 9 9\nHYDRODYNAMICS\nG_PRESSURE S -PERIOD 5 6 8 30 -HEADING 270 -PANEL 2 -MEAN_DRIFT NO\nEND\n";
+    let (mut session, screen, _folder) = common::session();
+    session.open("records", records.to_owned());
+    session.run();
+    let linear = LinearSystem::new(&session.job.model).unwrap_or_else(|e| panic!("{e:?} {}", screen.text()));
+    let mut reader = csv::Reader::from_path("tests/data/wide_barge/capytaine.csv").unwrap();
+    for row in reader.records() {
+        let row: Vec<f64> = row.unwrap().iter().map(|word| word.parse().unwrap()).collect();
+        let operators = Operators::new(&linear, &[TAU / row[0]], &[1.5 * PI]).unwrap();
+        // of the origin, a metre below the centre of gravity
+        let made = &operators.motions[0][0];
+        let (sway, roll) = ((made[1] - made[3]).norm(), made[3].norm().to_degrees());
+        let room = if row[0] < 10.0 { 0.03 * 1.0571 } else { 0.03 * row[8] };
+        assert!((sway - row[4]).abs() < 0.01 && (roll - row[8]).abs() < room, "{} s: {sway} {roll}", row[0]);
     }
 }
 

@@ -99,6 +99,23 @@ fn hemisphere_of_400_panels_meets_exact_series() {
 }
 
 #[test]
+fn moment_of_hemisphere_about_point_below_its_middle_is_force_times_arm() {
+    // every normal of a sphere goes through its middle
+    let body = DiffractionBody { mesh: hemisphere(6, QUARTER), origin: Vector3::new(0.0, 0.0, -0.3) };
+    let problem = DiffractionProblem::new(&[body], WATER).unwrap();
+    for k in [0.2, 0.5, 1.0] {
+        let found = solve(&problem, k);
+        for forces in [&found.excitation[0], &found.pressure_excitation[0]] {
+            let arm = forces[4] / forces[0];
+            assert!((arm - 0.3).norm() < 0.003, "{k}: {arm}");
+        }
+        // the coupling of pitch and surge too
+        let arm = found.added_mass[(4, 0)] / found.added_mass[(0, 0)];
+        assert!((arm - 0.3).abs() < 0.003 && found.added_mass[(0, 4)] == found.added_mass[(4, 0)], "{k}: {arm}");
+    }
+}
+
+#[test]
 fn error_of_hemisphere_falls_with_square_of_panel_size() {
     let errors = [5, 10, 20].map(|m| largest_errors(&problem(m, QUARTER), 0.5)[0]);
     for pair in errors.windows(2) {

@@ -270,9 +270,11 @@ pub fn read(source: &str, bytes: &[u8], body: Option<usize>) -> Result<Database,
         data.stance = set.stance(data.index)?;
         turn_to_axes(&mut data, &bodies).ok_or_else(|| set.error("body_axes has fewer bodies than added_mass"))?;
     } else if set.has("rotation_center") {
-        let centre = set.numbers("rotation_center")?.values;
-        let [x, y, z] = centre.as_slice() else {
-            return Err(set.error("rotation_center is no single point"));
+        // of several bodies each has its own
+        let centres = set.numbers("rotation_center")?.values;
+        let own = if centres.len() == 3 { 0 } else { data.index };
+        let Some([x, y, z]) = centres.as_chunks::<3>().0.get(own) else {
+            return Err(set.error("rotation_center is no point of this body"));
         };
         data.reference = Vector3::new(*x, *y, *z);
         refer_phases(&mut data, -*x, -*y);

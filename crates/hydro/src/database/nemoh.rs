@@ -90,12 +90,13 @@ fn odd(a: &[f64], b: &[f64]) -> Option<f64> {
     a.iter().find(|w| lacks(b, **w)).or_else(|| b.iter().find(|w| lacks(a, **w))).copied()
 }
 
-/// Phases of the excitation, which refer to a wave at a point with this offset from the reference point, as of a wave at the reference point.
+/// Phases of excitation and motions, which refer to a wave at a point with this offset from the reference point, as of a wave at the reference point.
 pub(super) fn refer_phases(data: &mut Database, dx: f64, dy: f64) {
     if dx == 0.0 && dy == 0.0 {
         return;
     }
-    for (row, heading) in data.excitation.iter_mut().zip(&data.headings) {
+    let motions = data.motions.iter_mut().flat_map(|table| table.iter_mut().zip(&data.headings));
+    for (row, heading) in data.excitation.iter_mut().zip(&data.headings).chain(motions) {
         let along = dx * heading.cos() + dy * heading.sin();
         for (six, w) in row.iter_mut().zip(&data.frequencies) {
             // the wave there is that at the reference point times exp(i k along); a frequency without a wave is refused later

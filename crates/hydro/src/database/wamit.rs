@@ -6,10 +6,11 @@
 //! `X = X' rho g L^m` with m = 2 for forces, 3 for moments; motions `x'` and `x' / L`; `C = C' rho g L^(k-1)`, so that
 //! C33 goes with L^2 and C44 with L^4; drift and QTF `rho g L` and `rho g L^2`. Periods are in s: zero is infinite frequency, negative is zero frequency.
 //! WAMIT writes with exp(+i w t): amplitudes are conjugated here. Headings are degrees of the direction of travel, phases
-//! refer to the origin, about which moments are.
+//! refer to the global origin of the run, moments to that of the body, which stands at XBODY there [WAMIT-7 3].
 
 use super::checks::{MAX_DATABASE_NUMBERS, check_database};
 use super::matrices::{PairRow, by_frequency, matrix};
+use super::nemoh::refer_phases;
 use super::rows::{
     ByWave, DatabaseError, ModeRow, NumberRow, SourceFile, by_wave, heading, same_frequency, same_heading,
 };
@@ -31,6 +32,8 @@ pub struct WamitScale {
     pub depth: Option<f64>,
     /// Which body of the run, from 1; `None` where it has one only.
     pub body: Option<usize>,
+    /// XBODY: x and y of the origin of the body in the axes of the run (m); the body is not turned there.
+    pub origin: Option<[f64; 2]>,
 }
 
 /// Reads the files of a run, distinguished by their endings; those of other endings are passed over.
@@ -69,6 +72,19 @@ pub fn read(source: &str, files: &[SourceFile], scale: &WamitScale) -> Result<Da
     }
     if let Some(file) = find("hst") {
         data.hydrostatics = Some(hydrostatics(file, scale)?);
+    }
+    match scale.origin {
+        Some([x, y]) => {
+            refer_phases(&mut data, -x, -y);
+            if data.qtf.is_some() && (x != 0.0 || y != 0.0) {
+                data.remarks.push("phases of its difference-frequency forces are left as they are: of a body away from the global origin they are off".into());
+            }
+        }
+        None if scale.body.is_some() => data.remarks.push(
+            "its phases are those of waves at the global origin of WAMIT: -XBODY X Y says where the origin of this body stands there; without it they are taken as those at the body"
+                .into(),
+        ),
+        None => {}
     }
     if files.iter().any(|f| f.ending() == "12s") {
         data.remarks.push("sum-frequency forces (.12s) are not used: they do not move a moored body slowly".into());

@@ -23,7 +23,7 @@ fn text(name: &str, text: &str) -> SourceFile {
 }
 
 fn scale(length: f64) -> WamitScale {
-    WamitScale { length, density: 1025.0, gravity: 9.80665, depth: None, body: None }
+    WamitScale { length, density: 1025.0, gravity: 9.80665, depth: None, body: None, origin: None }
 }
 
 fn whole() -> Database {
@@ -365,6 +365,27 @@ fn incomplete_file_reports_missing_part() {
     }
     let error = nemoh::read("n", &nemoh_files(), Some(2)).unwrap_err().to_string();
     assert!(error.contains("there is no body 2"), "{error}");
+}
+
+#[test]
+fn phases_of_a_body_of_wamit_are_those_at_the_global_origin() {
+    // heave of the second body in waves of 8 s along x and along y: with XBODY 4, 20 it is ahead of its own phase by k times that
+    let files = [
+        text("w.1", "8 9 9 1 1\n5 9 9 1 1\n"),
+        text("w.3", "8 0 9 1 0 1 0\n8 90 9 1 0 1 0\n5 0 9 1 0 1 0\n5 90 9 1 0 1 0\n"),
+    ];
+    let read = |origin| wamit::read("w", &files, &WamitScale { body: Some(2), origin, ..scale(1.0) }).unwrap();
+    let data = read(Some([4.0, 20.0]));
+    let at = data.frequencies.iter().position(|w| (w * 8.0 / TAU - 1.0).abs() < 1e-6).unwrap();
+    let number = (TAU / 8.0).powi(2) / 9.80665;
+    for (heading, along) in [(0, 4.0), (1, 20.0)] {
+        let phase = data.excitation[heading][at][2].arg();
+        assert!((phase + number * along).abs() < 1e-9, "{heading}: {phase}");
+    }
+    let is_named = |data: &Database| data.remarks.iter().any(|remark| remark.contains("-XBODY"));
+    assert!(!is_named(&data), "{:?}", data.remarks);
+    let data = read(None);
+    assert!(data.excitation[1][at][2].arg().abs() < 1e-12 && is_named(&data), "{:?}", data.remarks);
 }
 
 #[test]

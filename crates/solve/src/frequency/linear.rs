@@ -241,16 +241,25 @@ impl LinearSystem {
             if mass > 0.0 && (is_pushed || would_turn(3) || would_turn(4)) {
                 restless.push(node.name.clone());
             }
-            if !node.junction && self.floats.get(index).is_none_or(|f| f.is_none()) {
+            if !node.junction {
+                let has_database = self.floats.get(index).is_some_and(Option::is_some);
                 let body = model.bodies.get(&node.key);
-                let feels = |piece: &Piece| piece.member.is_some() || piece.waves == WaveAction::Pressure;
+                let feels = |piece: &Piece| match piece.waves {
+                    WaveAction::Pressure => true,
+                    WaveAction::ByForm => piece.member.is_some(),
+                    WaveAction::Database => false,
+                };
                 let lumps = |part: &Part| {
                     let own = |load: &&PartLoad| Model::key(&load.part) == Model::key(&part.name);
                     model.loads.iter().filter(own).any(|load| matches!(load.kind, LoadKind::Lump(_)))
                 };
                 let feels = |part: &Part| part.pieces.iter().any(feels) || lumps(part);
                 let feels = body.is_some_and(|b| model.parts_of(b).any(feels));
-                if feels { &mut in_time } else { &mut still }.push(node.name.clone());
+                if feels {
+                    in_time.push(node.name.clone());
+                } else if !has_database {
+                    still.push(node.name.clone());
+                }
             }
         }
         if !restless.is_empty() {
@@ -261,9 +270,11 @@ impl LinearSystem {
             self.notes.push(format!("no waves act on {}: without a hydrodynamic database", still.join(", ")).into());
         }
         if !in_time.is_empty() {
-            let text =
-                format!("waves act on members, lumps and hulls (-DIFTYPE FK) of {} in TDOM alone", in_time.join(", "));
-            self.notes.push(text.into());
+            let text = format!(
+                "waves act on members, lumps and hulls of -DIFTYPE FK of {} in TDOM alone: here they have mass and stiffness, and no force of waves",
+                in_time.join(", ")
+            );
+            self.notes.push(TableNote::warning(text));
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
             let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();
