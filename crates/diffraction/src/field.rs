@@ -70,6 +70,8 @@ const CONTROL_SHARE: f64 = 0.25;
 /// Distance of a control box from the hulls over the longest diagonal of the panels of its body, at least: a tenth of the side of a square one. Nearer the
 /// flow is that of single panels, and the drift there can be off by several times itself.
 const LEAST_GAP_SHARE: f64 = 0.07;
+/// Distance from a panel over its diagonal within which a point is on it.
+const HAIR: f64 = 1e-6;
 /// Directions that a control box is tried in, over a quarter of a turn.
 const BOX_DIRECTIONS: usize = 18;
 /// Most rules along a side of a control surface.
@@ -98,6 +100,7 @@ impl WaveSolution {
         let by_point: Vec<Vec<C>> = points
             .par_iter()
             .map(|point| {
+                let point = &self.off_the_hulls(point);
                 let mut sums: Vec<C> =
                     self.headings.iter().map(|heading| self.wave.at(point, *heading).0 * (4.0 * PI)).collect();
                 for (image, block) in images.iter().zip((0..).step_by(count)) {
@@ -121,6 +124,26 @@ impl WaveSolution {
             })
             .collect();
         Some((0..self.headings.len()).map(|i| by_point.iter().map(|of_point| of_point[i]).collect()).collect())
+    }
+
+    /// A point, by a hair into the water where it is on a panel: on the panel itself half of its jump is left.
+    fn off_the_hulls(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        for image in self.mesh.mirrors().images() {
+            let from = mirrored(point, image);
+            for panel in self.mesh.hull() {
+                let arm = from - panel.centroid;
+                let height = arm.dot(&panel.normal);
+                if height.abs() > HAIR * panel.diagonal || arm.norm_squared() > panel.diagonal * panel.diagonal {
+                    continue;
+                }
+                let off = panel.normal * (2.0 * HAIR * panel.diagonal - height);
+                // an edge sees a quarter of the sphere, a corner an eighth
+                if panel.rankine(&(from + off))[1] > 0.9 * PI / 2.0 {
+                    return point + mirrored(&off, image);
+                }
+            }
+        }
+        *point
     }
 
     /// Potentials and their derivatives along the normal on the hulls, heading by heading; none where the motions are not those of all headings, or a

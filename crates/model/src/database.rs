@@ -276,11 +276,12 @@ impl Model {
         }
         let mass = Mass::from_parts(self.parts_of(body), self.defaults.gravity).mass;
         let computed = data.mass.filter(|computed| mass > 0.0 && *computed > 0.0);
-        // contents of tanks are not among the weights
+        // where it is known how the body floated that is looked at: of one that tethers or members hold the mass is another, and contents of tanks are not among
+        // the weights
         let has_tanks = self.parts_of(body).any(|part| part.pieces.iter().any(|piece| piece.compartment.is_some()));
-        if let Some(computed) =
-            computed.filter(|computed| !has_tanks && (computed / mass - 1.0).abs() > MAX_MASS_DIFFERENCE)
-        {
+        if let Some(computed) = computed.filter(|computed| {
+            !has_tanks && data.stance.is_none() && (computed / mass - 1.0).abs() > MAX_MASS_DIFFERENCE
+        }) {
             let text = format!(
                 "{} has {:.4} times the mass that {} was computed for",
                 body.name,

@@ -237,6 +237,7 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
         Dim::None,
     );
     table.add_notes(linear.notes.iter().cloned());
+    table.add_notes(linear.without_waves.iter().map(TableNote::warning));
     table.add_notes(warnings_of_frequencies(&job.model, &periods).into_iter().map(TableNote::warning));
     let [shift, turn] = largest_operators(&linear, &made, job.units);
     let what = format!("{} and {}", count(periods.len(), "period"), count(headings.len(), "heading"));
@@ -300,6 +301,7 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
         .fact("Frequencies of Slow Drift", made.slow.len(), Dim::None)
         .fact("Rounds of Linearisation", made.rounds, Dim::None);
     table.add_notes(linear.notes.iter().cloned());
+    table.add_notes(linear.without_waves.iter().map(TableNote::warning));
     let of_sea = warnings_of_sea(&model).map_err(|e| e.diagnostic(args.span, job.units))?;
     table.add_notes(of_sea.into_iter().map(TableNote::warning));
     let extreme = probability::extreme(&model);

@@ -335,6 +335,28 @@ fn kept_results_of_another_job_are_taken_where_they_match() {
     assert_eq!(first, again);
     let (_, text, ..) = run(records("8 11", &kept));
     assert!(text.contains("is of another mesh or other settings"), "{text}");
+    // one that was cut off is computed anew
+    let whole = std::fs::read(&file).unwrap();
+    std::fs::write(&file, &whole[..whole.len() - 100]).unwrap();
+    let (again, text, ..) = run(records("8 10", &kept));
+    assert!(text.contains("BARGE.nc is damaged: the results are computed"), "{text}");
+    assert_eq!(first, again);
+}
+
+#[test]
+fn motions_in_waves_name_bodies_with_members_that_feel_none_there() {
+    let records = |kind: &str| {
+        format!(
+            "-PERIOD 8 10 -HEADING 180 -PANEL 6 -MEAN_DRIFT NO\nEND\nMEDIT\n&DESCRIBE BODY S\n*T1 0 0 -3\n*T2 0 0 -13\n&SURFACE\n\
+             TUBE T *T1 *T2 1000 {kind}\nEND_&SURFACE\nEND\nFREQ_RESPONSE\nRAO -PERIOD 8 -HEADING 180\n"
+        )
+    };
+    let is_named = |kind: &str| {
+        let (_, text) = floating_barge(19_300.0, 0.0, &records(kind), "END\n");
+        assert!(text.contains("Excursion"), "{text}");
+        text.contains("waves act on members, lumps and hulls of -DIFTYPE FK of S in TDOM alone")
+    };
+    assert!(is_named("") && !is_named("-DIFTYPE 3DDIF"));
 }
 
 #[test]

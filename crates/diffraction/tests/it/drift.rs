@@ -3,7 +3,7 @@ use crate::hemisphere::{QUARTER, WATER, hemisphere, problem as of_hemisphere};
 use nalgebra::{Complex, DMatrix, Vector3};
 use std::f64::consts::PI;
 use windlass_diffraction::{
-    ControlCylinder, ControlSurface, DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes,
+    ControlCylinder, ControlSurface, DiffractionBody, DiffractionProblem, FreeBody, HullMesh, MirrorPlanes, Panel,
     free_motions,
 };
 
@@ -106,16 +106,22 @@ fn control_surface_drift_of_hemisphere_meets_exact_series() {
 #[test]
 fn elevation_around_bottom_mounted_cylinder_meets_closed_form() {
     // [MACCAMY-FUCHS-1954] at k a = 1: sum e_m i^m (J_m(kr) - J_m'(ka)/H_m'(ka) H_m(kr)) cos m theta; 1 % of the
-    // incident wave
-    let problem = in_depth(CylinderMesh { draught: 2.0, rows: 20, rings: 0, turns: 12 }.build(), 2.0);
-    let (k, radius) = (1.0_f64, 1.5_f64);
+    // incident wave, and 3 % on the waterline of a panel itself, where half of it was left
+    let mesh = CylinderMesh { draught: 2.0, rows: 20, rings: 0, turns: 12 }.build();
+    let highest = |panel: &&Panel| panel.corners().iter().filter(|at| at.z == 0.0).count() == 2;
+    let top = mesh.hull().iter().find(highest).unwrap();
+    let middle = top.corners().iter().filter(|at| at.z == 0.0).sum::<Vector3<f64>>() / 2.0;
+    let (side, on_side) = (middle.y.atan2(middle.x), middle.x.hypot(middle.y));
+    assert!((on_side - 1.0).abs() < 0.002, "{on_side}");
+    let problem = in_depth(mesh, 2.0);
+    let k = 1.0_f64;
     let waves = problem.solve_waves((9.81 * k * (2.0 * k).tanh()).sqrt(), &[0.0]).unwrap();
-    let angles = [0.0_f64, 1.0, 2.0, PI];
-    let points = angles.map(|angle| [radius * angle.cos(), radius * angle.sin()]);
+    let places = [(0.0_f64, 1.5_f64), (1.0, 1.5), (2.0, 1.5), (PI, 1.5), (side, on_side), (PI - side, on_side)];
+    let points = places.map(|(angle, radius)| [radius * angle.cos(), radius * angle.sin()]);
     let found = waves.elevations(&[FIXED.to_vec()], &points).unwrap();
     let bessel = |m: i32, x: f64| Complex::new(libm::jn(m, x), libm::yn(m, x));
     let slope = |m: i32, x: f64| if m == 0 { -bessel(1, x) } else { (bessel(m - 1, x) - bessel(m + 1, x)) * 0.5 };
-    for (angle, found) in angles.into_iter().zip(&found[0]) {
+    for ((angle, radius), found) in places.into_iter().zip(&found[0]) {
         let exact: Complex<f64> = (0..16)
             .map(|m| {
                 let scattered = bessel(m, k * radius) * (slope(m, k).re / slope(m, k));
@@ -123,7 +129,8 @@ fn elevation_around_bottom_mounted_cylinder_meets_closed_form() {
                 own * Complex::i().powi(m) * if m == 0 { 1.0 } else { 2.0 }
             })
             .sum();
-        assert!((found - exact).norm() < 0.01, "{angle}: {found} for {exact}");
+        let room = if radius < 1.1 { 0.03 } else { 0.01 };
+        assert!((found - exact).norm() < room, "{angle}: {found} for {exact}");
     }
 }
 

@@ -84,6 +84,8 @@ pub struct LinearSystem {
     speed: [f64; 2],
     /// What a user should know.
     pub notes: Vec<TableNote>,
+    /// What of the bodies feels no waves here, in a sentence; motions in waves warn of it.
+    pub without_waves: Option<String>,
 }
 
 /// Radiated waves of a body as they act on another, by their numbers.
@@ -188,6 +190,7 @@ impl LinearSystem {
             depth,
             speed: [0.0; 2],
             notes,
+            without_waves: None,
         };
         made.look(model, &state.residual);
         made.look_at_lines(model);
@@ -274,7 +277,7 @@ impl LinearSystem {
                 "waves act on members, lumps and hulls of -DIFTYPE FK of {} in TDOM alone: here they have mass and stiffness, and no force of waves",
                 in_time.join(", ")
             );
-            self.notes.push(TableNote::warning(text));
+            self.without_waves = Some(text);
         }
         for (index, node) in self.system.nodes.iter().enumerate() {
             let own = self.damping.fixed_view::<6, 6>(6 * index, 6 * index).into_owned();
