@@ -481,6 +481,14 @@ impl DiffractionProblem {
                 let own = velocities.iter().skip(motion).step_by(motions.len().max(1));
                 potential.iter().zip(own).zip(&weights).map(|((p, n), area)| p * (n * area)).sum()
             };
+            let scattered: Vec<Vec<C>> = incident
+                .iter()
+                .enumerate()
+                .map(|(index, parts)| {
+                    let total = solved.column(motions.len() + index);
+                    total.iter().zip(&parts.potentials).map(|(total, own)| total - own).collect()
+                })
+                .collect();
             for (column, motion) in motions.iter().enumerate() {
                 for (row, force) in motions.iter().enumerate() {
                     let integral = integrate(solved.column(column), row) * rho;
@@ -489,10 +497,7 @@ impl DiffractionProblem {
                 }
                 let radiated = solved.column(column);
                 for (index, parts) in incident.iter().enumerate() {
-                    let total = solved.column(motions.len() + index);
-                    let scattered: Vec<C> =
-                        total.iter().zip(&parts.potentials).map(|(total, own)| total - own).collect();
-                    let pressure = parts.forces[column] + integrate(&scattered, column);
+                    let pressure = parts.forces[column] + integrate(&scattered[index], column);
                     let flux: C = radiated.iter().zip(&parts.fluxes).map(|(radiated, flux)| radiated * flux).sum();
                     let haskind = parts.forces[column] - flux;
                     // both waves meet the damped condition, the incident one alone does not
