@@ -1,7 +1,7 @@
 //! What G_PRESSURE computed as NetCDF, in the layout of Capytaine's data sets, which xarray opens and DATABASE reads.
 //!
 //! Source: [CAPYTAINE-3 Outputs, Export outputs] for dimensions and names: `omega`, `radiating_dof`, `influenced_dof`, `wave_direction`, `complex`. The last
-//! of `omega` is infinity, with the added mass alone. What Capytaine has not, for bodies with axes of their own, stands on the dimensions
+//! of `omega` is infinity, with the added mass alone, and of deep water the first is zero. What Capytaine has not, for bodies with axes of their own, stands on the dimensions
 //! `body` and `xyz`: `rotation_center`, `body_axes`, `body_heading`, `mean_drift` and `near_field_drift`; `damping_lid` has the rectangles of damped surface.
 
 use super::netcdf::{Shared, to_store_error};
@@ -11,8 +11,13 @@ use netcdf3::{DataSet, FileWriter, Version};
 use windlass_diffraction::{FrequencyForces, MOTIONS, Water};
 use windlass_hydro::database::capytaine::DRIFT_METHOD;
 
-/// Share of the largest exciting force of a motion over all frequencies by which a difference is measured at least.
-const LEAST_OF_PEAK: f64 = 0.2;
+/// Drift below this share of that of a wall as wide as a panel, which throws all of the waves back, is noise: as of waves that are far longer than the body.
+const LEAST_REFLECTED: f64 = 1e-3;
+
+/// Mean drift below which differences of its ways are noise, over the square of the wave amplitude (N/m2), for panels of a size (m).
+pub fn least_drift(water: Water, panel_size: f64) -> f64 {
+    LEAST_REFLECTED * 0.5 * water.density * water.gravity * panel_size
+}
 
 /// Names of the motions, as Capytaine has them.
 const DOFS: [&str; MOTIONS] = ["Surge", "Sway", "Heave", "Roll", "Pitch", "Yaw"];
@@ -68,6 +73,8 @@ pub struct PressureFile<'a> {
     pub energy: &'a [f64],
     /// Added mass at infinite frequency.
     pub infinite: &'a DMatrix<f64>,
+    /// Added mass at the zero frequency, in deep water: that of heave has no limit elsewhere.
+    pub zero: Option<&'a DMatrix<f64>>,
     /// Rectangles of damped surface: x and y of two corners (m), and the damping.
     pub lids: &'a [[f64; 5]],
     /// Mean drift, or why there is none.
@@ -96,7 +103,7 @@ impl PressureFile<'_> {
         let count = dofs.len();
         let mut made = Writer::new(&self.title(), self.key)?;
         for (dimension, size) in [
-            ("omega", self.forces.len() + 1),
+            ("omega", self.forces.len() + 1 + usize::from(self.zero.is_some())),
             ("radiating_dof", count),
             ("influenced_dof", count),
             ("dof_name", width),
@@ -116,23 +123,29 @@ impl PressureFile<'_> {
             let text = "rectangles of damped surface: x and y of two corners, and epsilon of d phi/dz = nu (1 + i epsilon) phi";
             made.numbers("damping_lid", &["lid", "lid_value"], "m, 1", text, self.lids.concat())?;
         }
-        let omega: Vec<f64> = self.forces.iter().map(|forces| forces.frequency).chain([f64::INFINITY]).collect();
-        made.numbers("omega", &["omega"], "rad/s", "frequency; the last is infinity", omega)?;
+        let first = self.zero.map(|_| 0.0);
+        let between = self.forces.iter().map(|forces| forces.frequency);
+        let omega: Vec<f64> = first.into_iter().chain(between).chain([f64::INFINITY]).collect();
+        let text = "frequency; the last is infinity, and of deep water the first is zero";
+        made.numbers("omega", &["omega"], "rad/s", text, omega)?;
         for dimension in ["radiating_dof", "influenced_dof"] {
             made.letters(dimension, &[dimension, "dof_name"], letters.clone())?;
         }
         made.letters("complex", &["complex", "complex_name"], b"reim".to_vec())?;
         made.numbers("wave_direction", &["wave_direction"], "rad", "where the waves go to", self.headings.to_vec())?;
-        let matrices = |of: &dyn Fn(&FrequencyForces) -> &DMatrix<f64>, last: &DMatrix<f64>| -> Vec<f64> {
-            let all = self.forces.iter().map(of).chain([last]);
+        let matrices = |first: Option<&DMatrix<f64>>,
+                        of: &dyn Fn(&FrequencyForces) -> &DMatrix<f64>,
+                        last: &DMatrix<f64>|
+         -> Vec<f64> {
+            let all = first.into_iter().chain(self.forces.iter().map(of)).chain([last]);
             // the radiating motion is the column
             all.flat_map(|matrix| matrix.iter().copied()).collect()
         };
         let places = ["omega", "radiating_dof", "influenced_dof"];
-        let added = matrices(&|forces| &forces.added_mass, self.infinite);
+        let added = matrices(self.zero, &|forces| &forces.added_mass, self.infinite);
         made.numbers("added_mass", &places, "kg, kg m, kg m2", "added mass", added)?;
         let none = DMatrix::zeros(count, count);
-        let damping = matrices(&|forces| &forces.damping, &none);
+        let damping = matrices(self.zero.map(|_| &none), &|forces| &forces.damping, &none);
         made.numbers("radiation_damping", &places, "N s/m, N s, N m s", "radiation damping", damping)?;
         for (name, text, of) in [
             (
@@ -144,8 +157,9 @@ impl PressureFile<'_> {
         ] {
             let all: Vec<_> = self.forces.iter().map(of).collect();
             let missing = || std::iter::repeat_n(f64::NAN, self.headings.len() * count);
-            let re = all.iter().flatten().flatten().map(|value| value.re).chain(missing());
-            let im = all.iter().flatten().flatten().map(|value| value.im).chain(missing());
+            let before = || self.zero.into_iter().flat_map(|_| missing());
+            let re = before().chain(all.iter().flatten().flatten().map(|value| value.re)).chain(missing());
+            let im = before().chain(all.iter().flatten().flatten().map(|value| value.im)).chain(missing());
             let values = re.chain(im).collect();
             made.numbers(name, &["complex", "omega", "wave_direction", "influenced_dof"], "N/m, N", text, values)?;
         }
@@ -170,17 +184,6 @@ impl PressureFile<'_> {
         )?;
         made.numbers("body_heading", &["body"], "rad", "heading of the body", points(&|body| vec![body.heading]))?;
         made.numbers("disp_mass", &["body"], "kg", "displaced mass", points(&|body| vec![body.mass]))?;
-        let mut peaks: Vec<f64> = Vec::new();
-        for largest in self.forces.iter().map(FrequencyForces::largest_excitation) {
-            peaks.resize(largest.len(), 0.0);
-            peaks.iter_mut().zip(largest).for_each(|(peak, own)| *peak = peak.max(LEAST_OF_PEAK * own));
-        }
-        let differences: Vec<_> = self.forces.iter().map(|own| own.excitation_difference_above(&peaks)).collect();
-        let haskind = differences.iter().map(|made| made.map_or(0.0, |made| made.share)).collect();
-        let text = "difference of both exciting forces over the largest of the motion, in that where it is largest";
-        made.numbers("haskind_difference", &["frequency"], "1", text, haskind)?;
-        let motions = differences.iter().map(|made| made.map_or(0.0, |made| made.motion as f64)).collect();
-        made.numbers("haskind_motion", &["frequency"], "1", "that motion, six a body, from 0", motions)?;
         let text =
             "largest difference of the damping from the energy of the waves far away, over the largest of its kind";
         made.numbers("energy_difference", &["frequency"], "1", text, self.energy.to_vec())?;
@@ -206,7 +209,13 @@ impl PressureFile<'_> {
                     made.numbers("drift_difference", &["frequency"], "1", text, differences)?;
                 } else if drift.iter().any(|own| !own.sums.is_empty()) {
                     let text = "largest difference of the sum of the bodies' drift, forces and moments over the distance of the bodies, from that far away, over the largest force";
-                    made.numbers("drift_difference", &["frequency"], "1", text, drift_differences(drift))?;
+                    made.numbers(
+                        "drift_difference",
+                        &["frequency"],
+                        "1",
+                        text,
+                        drift_differences(drift, least_drift(self.water, self.panel_size)),
+                    )?;
                 }
             }
             Err(why) => made.set.add_global_attr_string(NO_DRIFT, why).map_err(to_store_error)?,
@@ -248,8 +257,8 @@ fn near_differences(drift: &[BodyDrift]) -> Vec<f64> {
     drift.iter().map(of).collect()
 }
 
-/// Frequency by frequency, over the largest force of all.
-fn drift_differences(drift: &[BodyDrift]) -> Vec<f64> {
+/// Frequency by frequency, over the largest force of all; zero where that is less than what is noise (N/m2).
+fn drift_differences(drift: &[BodyDrift], least: f64) -> Vec<f64> {
     let largest = drift.iter().flat_map(|own| &own.sums).map(|[_, far]| far[0].hypot(far[1])).fold(0.0, f64::max);
     let of = |own: &BodyDrift| {
         let differ = |[sum, far]: &[[f64; 3]; 2]| {
@@ -257,7 +266,7 @@ fn drift_differences(drift: &[BodyDrift]) -> Vec<f64> {
             x.hypot(y).max(moment.abs())
         };
         let off = own.sums.iter().map(differ);
-        if largest > 0.0 { off.fold(0.0, f64::max) / largest } else { 0.0 }
+        if largest > least { off.fold(0.0, f64::max) / largest } else { 0.0 }
     };
     drift.iter().map(of).collect()
 }

@@ -32,6 +32,7 @@ mod curvature;
 mod dispersion;
 mod drift_damping;
 mod error;
+mod excitation_check;
 mod field;
 mod free_body;
 mod gauss;
@@ -53,14 +54,12 @@ mod wave_system;
 
 pub use drift_damping::DriftDamping;
 pub use error::DiffractionError;
+pub use excitation_check::{ExcitationDifference, ExcitationPair, excitation_differences};
 pub use field::{ControlBox, ControlCylinder, ControlSurface, ControlSurfaceDrift};
 pub use free_body::{FreeBody, free_motions};
 pub use mesh::{HullMesh, MirrorPlanes};
 pub use near_field::NearFieldDrift;
 pub use panel::Panel;
-pub use problem::{
-    DampedPatch, DiffractionBody, DiffractionProblem, ExcitationDifference, FrequencyForces, FrequencyLimit, MOTIONS,
-    Water,
-};
+pub use problem::{DampedPatch, DiffractionBody, DiffractionProblem, FrequencyForces, FrequencyLimit, MOTIONS, Water};
 pub use quality::MeshQuality;
 pub use wave_solution::{FarFieldDrift, WaveSolution};

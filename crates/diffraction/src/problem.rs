@@ -123,17 +123,6 @@ pub struct FrequencyForces {
 
 /// Over the depth: what corners of panels on the bottom may be below it.
 const ROUNDING: f64 = 1e-9;
-/// Share of the largest exciting force of its kind on its body below which a motion is measured by that share.
-const LEAST_OF_KIND: f64 = 0.05;
-
-/// How far exciting forces by pressure are off those by Haskind's relation.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ExcitationDifference {
-    /// The motion where they differ most, six a body.
-    pub motion: usize,
-    /// The difference over the largest force of that motion.
-    pub share: f64,
-}
 
 impl FrequencyForces {
     /// The force of the radiated waves in one direction by the motions of all bodies (N, N m for motions in waves of amplitude 1 m).
@@ -144,45 +133,6 @@ impl FrequencyForces {
             other * C::new(omega * omega * added_mass, omega * damping)
         };
         motions.iter().enumerate().map(by_motion).sum()
-    }
-
-    /// The motion whose exciting forces by pressure and by Haskind's relation differ most, over the largest of that motion at all headings. A motion whose forces are
-    /// less than a twentieth of the largest of its kind (forces or moments) on its body, as one that symmetry leaves without any, is measured by that
-    /// twentieth. It measures the mesh; none where there are no headings.
-    pub fn excitation_difference(&self) -> Option<ExcitationDifference> {
-        self.excitation_difference_above(&[])
-    }
-
-    /// The largest exciting force of each motion at all headings (N, N m for an amplitude of 1 m), by Haskind's relation.
-    pub fn largest_excitation(&self) -> Vec<f64> {
-        let count = self.excitation.first().map_or(0, Vec::len);
-        let largest = |motion: usize| self.excitation.iter().map(|row| row[motion].norm()).fold(0.0, f64::max);
-        (0..count).map(largest).collect()
-    }
-
-    /// As [`FrequencyForces::excitation_difference`], where a motion is measured by a force of its own at least (N, N m): a share of its largest at all
-    /// frequencies, since at a frequency where its force vanishes a small difference is much of it.
-    pub fn excitation_difference_above(&self, least: &[f64]) -> Option<ExcitationDifference> {
-        let count = self.excitation.first().map_or(0, Vec::len);
-        let mut motions = vec![[0.0_f64; 2]; count];
-        for (by_haskind, by_pressure) in self.excitation.iter().zip(&self.pressure_excitation) {
-            for ([difference, largest], (haskind, pressure)) in
-                motions.iter_mut().zip(by_haskind.iter().zip(by_pressure))
-            {
-                *difference = difference.max((pressure - haskind).norm());
-                *largest = largest.max(haskind.norm());
-            }
-        }
-        let kind = |motion: usize| {
-            let first = motion - motion % 3;
-            motions.iter().skip(first).take(3).fold(0.0, |most: f64, [_, largest]| most.max(*largest))
-        };
-        let share = |(motion, [difference, largest]): (usize, &[f64; 2])| {
-            let measure = largest.max(LEAST_OF_KIND * kind(motion)).max(least.get(motion).copied().unwrap_or(0.0));
-            (measure > 0.0).then_some(ExcitationDifference { motion, share: difference / measure })
-        };
-        let found = motions.iter().enumerate().filter_map(share);
-        found.reduce(|most, other| if other.share > most.share { other } else { most })
     }
 }
 

@@ -14,6 +14,11 @@ use windlass_model::{Body, ClassError, Model};
 
 /// Share of the energy of a sea in waves for which the water is not deep that is let pass.
 const SHALLOW_SHARE: f64 = 0.05;
+/// Frequency of waves by the speed of the current over gravity up to which the formula, linear in the speed, is let pass: at 0.25 waves no more run against the
+/// current from a body.
+const FASTEST_CURRENT: f64 = 0.15;
+/// Share of the energy of a sea in waves for which the current is too fast that is let pass.
+const FAST_SHARE: f64 = 0.05;
 /// Change of the damping by leaving out every second frequency, as a share of it, that is let pass: that of what is left out is a small part of it.
 const COARSE_SHARE: f64 = 0.3;
 
@@ -31,7 +36,7 @@ pub struct BodyDriftDamping {
     pub damping: Matrix2<f64>,
     /// What the mean current adds to the mean drift, global axes (N).
     pub by_current: Vector2<f64>,
-    /// What has no part in it, or is not sure, in sentences.
+    /// What has no part in it, or is uncertain, in sentences.
     pub warnings: Vec<String>,
     /// What is left out as asked, in sentences.
     pub notes: Vec<String>,
@@ -62,12 +67,13 @@ fn of_body(model: &Model, body: &Body) -> Result<Option<BodyDriftDamping>, Class
         VelocityEffect::Acts(made) => {
             by_current = on_plan * made.current();
             warnings.extend(shallow_waves(model, &name, &made)?);
+            warnings.extend(fast_current(model, &name, &made)?);
             if let Some(coarse) = coarse_slow_drift(model, body)? {
                 let coarse = coarse.damping_on_plan(yaw)? * factor;
                 if (coarse - on_plan).norm() > COARSE_SHARE * on_plan.norm() {
                     warnings.push(format!(
-                        "the wave drift damping of {name} is not sure: of every second frequency of its mean drift alone it differs by {:.0} %; more periods of \
-                         the database where the waves are make it so",
+                        "the wave drift damping of {name} is uncertain: by every second frequency of its mean drift alone it differs by {:.0} %; a database with \
+                         more periods where the waves are settles it",
                         100.0 * (coarse - on_plan).norm() / on_plan.norm()
                     ));
                 }
@@ -76,8 +82,8 @@ fn of_body(model: &Model, body: &Body) -> Result<Option<BodyDriftDamping>, Class
                 let share = (without.damping_on_plan(yaw)? * factor - on_plan).norm() / on_plan.norm();
                 if gap > WIDEST_SURE_GAP && share > SHARE_OF_HEADINGS {
                     warnings.push(format!(
-                        "the wave drift damping of {name} across the waves is not sure: {:.0} % of the damping is by the change of the mean drift with the heading, and the \
-                         database has headings {:.0} degrees apart there; at most 45 make it so",
+                        "the wave drift damping of {name} across the waves is uncertain: {:.0} % of the damping is by the change of the mean drift with the heading, and the \
+                         database has headings {:.0} degrees apart there; at most 45 are close enough",
                         100.0 * share,
                         gap.to_degrees()
                     ));
@@ -108,6 +114,22 @@ fn shallow_waves(model: &Model, name: &str, made: &DriftByVelocity) -> Result<Op
             "waves with {:.0} % of the energy of the sea have no part in the wave drift damping of {name}, nor in what a current changes of its drift: the water is not deep \
              for them, less than half their length, and the formula of Aranha holds in deep water alone",
             100.0 * shallow / whole
+        )
+    }))
+}
+
+/// The warning of a current that is too fast for waves with much of the energy.
+fn fast_current(model: &Model, name: &str, made: &DriftByVelocity) -> Result<Option<String>, ClassError> {
+    let (mut fast, mut whole) = (0.0, 0.0);
+    for (frequency, energy) in Steady::new(model)?.waves.iter().flat_map(|(_, waves)| &waves.energies) {
+        whole += energy;
+        fast += if made.speed_number(*frequency) > FASTEST_CURRENT { *energy } else { 0.0 };
+    }
+    Ok((fast > FAST_SHARE * whole).then(|| {
+        format!(
+            "what the current changes of the mean drift of {name} is uncertain: the formula of Aranha is linear in its speed, and for waves with {:.0} % of the energy of the \
+             sea the frequency by the speed over gravity is above {FASTEST_CURRENT}; -DD_MULT 0 leaves the change out",
+            100.0 * fast / whole
         )
     }))
 }

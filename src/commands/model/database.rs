@@ -12,6 +12,7 @@ use std::sync::Arc;
 use windlass_base::choice::YesNo;
 use windlass_base::choices;
 use windlass_base::diagnostic::{Diagnostic, Outcome};
+use windlass_base::geometry::Place;
 use windlass_base::span::Span;
 use windlass_base::units::Dim;
 use windlass_base::values::Args;
@@ -269,7 +270,12 @@ pub(super) fn attach(job: &mut Job, body: &str, made: AttachedDatabase, source: 
         job.remark(format!("the database of {name} is replaced"), span);
     }
     hydrodynamics::settle_pressure(&mut job.model, &name);
-    for text in job.model.bodies.get(&key).map(|body| job.model.stance_warnings_of(body)).unwrap_or_default() {
+    // a body that still stands where it was described may be placed yet: solves say how it stands
+    let placed = job.model.bodies.get(&key).filter(|body| {
+        let has_stance = body.database.as_ref().is_some_and(|made| made.data.stance.is_some());
+        !has_stance || body.position != Place::default()
+    });
+    for text in placed.map(|body| job.model.stance_warnings_of(body)).unwrap_or_default() {
         job.warn(text, source);
     }
     // of bodies that are given one by one the others may follow: solves say what is left of it
@@ -336,6 +342,12 @@ fn read(job: &Job, args: &Args) -> Outcome<(Span, Database)> {
     };
     if let Some(second) = given.next() {
         return Err(Diagnostic::error("a body has one database", second.span).other(source.span, "first given here"));
+    }
+    for (option, of) in [(&ULEN, &WAMIT), (&XBODY, &WAMIT), (&PHASE, &RAO), (&ROTATION, &RAO)] {
+        if let Some(other) = args.option(option).filter(|_| !source.is(of)) {
+            let text = format!("{} goes with {}, not with {}", option.name, of.name, source.option.name);
+            return Err(Diagnostic::error(text, other.span).other(source.span, "the source"));
+        }
     }
     let name = source.first_word().unwrap_or_default();
     let span = source.first_place();

@@ -93,7 +93,11 @@ static MENU_SPEC: CommandSpec = CommandSpec {
 
 const HEADING: OptionSpec = OptionSpec::new(
     "-HEADING",
-    &[ValueSpec::new("H", Kind::Number(Dim::Angle), "where the waves come from, from +X toward +Y")],
+    &[ValueSpec::new(
+        "H",
+        Kind::Number(Dim::Angle),
+        "where the waves come from, from the X axis of the first body toward its Y axis",
+    )],
     "headings",
 )
 .repeating(1)

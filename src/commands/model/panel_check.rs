@@ -12,9 +12,13 @@ use windlass_base::units::Dim;
 use windlass_hydro::database::checks::MODES;
 use windlass_model::{Amplitudes, Database};
 
-/// Sides of the finer panels over those of the present ones: twice as many panels. The error falls with the square of the sides, so that the finer
-/// mesh has the change left as its error, and the present one twice the change.
+/// Sides of the finer panels over those of the present ones, where panels divide all: twice as many. Sides are divided by whole panels, so that smaller ones
+/// follow, by steps, until there are as many.
 const FINER: f64 = std::f64::consts::FRAC_1_SQRT_2;
+const FINER_STEP: f64 = 0.97;
+const MAX_FINER_TRIES: usize = 40;
+/// Panels of the finer mesh over those of the present one, at least.
+const MORE_PANELS: f64 = 2.0;
 /// A corner out of the plane of its panel by more than this share of the diagonal is warned of.
 const CROOKED: f64 = 0.05;
 /// Panels with a longer diagonal over the root of twice their area are warned of: sides of one to eight.
@@ -50,19 +54,7 @@ pub fn check(
     let span = request.span;
     let mesh = mesh_table(job, meshed, span);
     job.say_tables(&[mesh]);
-    let finer = PanelRequest {
-        headings: request.headings.clone(),
-        periods: meshed.frequencies.iter().map(|w| TAU / w).collect(),
-        size: Some(FINER * meshed.size),
-        edge_share: meshed.edge_share,
-        depth: request.depth,
-        lids: request.lids.clone(),
-        has_drift: request.has_drift,
-        is_checked: false,
-        kept: None,
-        span,
-    };
-    let finer_meshed = match MeshedBodies::new(&job.model, names, &finer) {
+    let (finer, finer_meshed) = match finer_mesh(job, names, request, meshed) {
         Ok(finer) => finer,
         Err(error) => {
             job.warn(format!("{}: no finer mesh: {}", meshed.names(), error.message), span);
@@ -104,6 +96,55 @@ pub fn check(
     }
     job.say_tables(&[relations, table]);
     Ok(())
+}
+
+/// The mesh with twice as many panels, or with what memory has room for.
+///
+/// # Errors
+/// Not one that is finer.
+fn finer_mesh(
+    job: &Job,
+    names: &[String],
+    request: &PanelRequest,
+    meshed: &MeshedBodies,
+) -> Outcome<(PanelRequest, MeshedBodies)> {
+    let made = |size: f64| {
+        let finer = PanelRequest {
+            headings: request.headings.clone(),
+            periods: meshed.frequencies.iter().map(|w| TAU / w).collect(),
+            size: Some(size),
+            edge_share: meshed.edge_share,
+            depth: request.depth,
+            lids: request.lids.clone(),
+            has_drift: request.has_drift,
+            is_checked: false,
+            kept: None,
+            span: request.span,
+        };
+        MeshedBodies::new(&job.model, names, &finer).map(|meshed| (finer, meshed))
+    };
+    let wanted = (MORE_PANELS * meshed.panel_count() as f64) as usize;
+    let mut size = FINER * meshed.size;
+    let mut best = made(three_digits(size))?;
+    for _ in 0..MAX_FINER_TRIES {
+        if best.1.panel_count() >= wanted {
+            break;
+        }
+        size *= FINER_STEP;
+        match made(three_digits(size)) {
+            Ok(next) => best = next,
+            // more than memory
+            Err(_) => break,
+        }
+    }
+    Ok(best)
+}
+
+/// A length to three digits, with which a run can be made again.
+fn three_digits(length: f64) -> f64 {
+    let digit = 10_f64.powf(length.log10().floor() - 2.0);
+    let rounded = (length / digit).round() * digit;
+    if rounded.is_finite() { rounded } else { length }
 }
 
 /// The panels of each body at their worst.
@@ -161,7 +202,7 @@ fn relations_table(meshed: &MeshedBodies, quality: &Quality, worst: Option<&[Wor
     let mut builder = Table::new(format!("Relations of {}", meshed.names()))
         .with_rows(&rows)
         .column("", "Period", Dim::Time, Digits::Decimals(2), |i| period(*i))
-        .column("Relations", "Haskind", Dim::None, Digits::Decimals(3), |i| at(&quality.haskind, *i))
+        .column("Relations", "Haskind", Dim::None, Digits::Decimals(3), |i| 100.0 * quality.haskind(*i))
         .column("Relations", "Energy", Dim::None, Digits::Decimals(3), |i| at(&quality.energy, *i))
         .column("Relations", "Symmetry", Dim::None, Digits::Decimals(3), |i| at(&quality.asymmetry, *i));
     if let Some(worst) = worst {
@@ -193,7 +234,15 @@ fn change_table(meshed: &MeshedBodies, finer: &MeshedBodies, changes: &[Change])
     table = table.fact("Panels", meshed.panel_count(), Dim::None);
     table = table.fact("Panels of the Finer Mesh", finer.panel_count(), Dim::None);
     table.note("Largest in kg, N, m, s and rad; Change: largest over the periods, per cent of it, at the period given");
-    table.note("the error falls with the square of the panel size: that of these results is about twice the change, that of finer panels as large as it");
+    // errors that go as the inverse of the number of panels differ by the change
+    let [own, more] = [meshed.panel_count(), finer.panel_count()].map(|panels| panels as f64);
+    let left = own / (more - own);
+    if left.is_finite() && left > 0.0 {
+        table.note(format!(
+            "the error falls as the square of the panel size: that of these results is about {:.1} times the change, that of the finer panels {left:.1} times",
+            1.0 + left
+        ));
+    }
     table
 }
 

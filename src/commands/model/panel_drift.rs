@@ -7,7 +7,7 @@
 
 use crate::commands::Job;
 use crate::commands::model::panel_forces::{MeshedBodies, MeshedBody, PanelRequest, progress_bar};
-use crate::report::pressure_file::BodyDrift;
+use crate::report::pressure_file::{BodyDrift, least_drift};
 use nalgebra::{Complex, DMatrix, Matrix6, Rotation3, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -285,7 +285,8 @@ pub fn check_of_largest(
     let forces = |own: &BodyDrift| own.values.iter().filter_map(|of| of.first().copied()).collect::<Vec<_>>();
     let largest_of = |own: &BodyDrift| forces(own).iter().map(|[x, y, _]| x.hypot(*y)).fold(0.0, f64::max);
     let sizes = drifts.iter().map(largest_of).enumerate();
-    let (at, largest) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, largest)| *largest > 0.0)?;
+    let least = least_drift(meshed.water, meshed.size);
+    let (at, largest) = sizes.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, largest)| *largest > least)?;
     let waves = problem.solve_waves(*meshed.frequencies.get(at)?, headings).ok()?;
     let motions = motions_in_waves(source, meshed, &waves.forces, headings).ok()??;
     let near = waves.control_surface_drift(&motions, &ControlSurface::Cylinder(problem.control_cylinder()))?;
@@ -596,7 +597,7 @@ pub fn compute(job: &mut Job, name: &str, data: &Database, request: &PanelReques
     };
     let largest = rows.iter().map(|row: &DriftRow| row.far[0].hypot(row.far[1])).fold(0.0, f64::max);
     let worst = rows.iter().map(|row| row.differences[0]).fold(0.0, f64::max);
-    if worst > POOR_AGREEMENT * largest {
+    if worst > POOR_AGREEMENT * largest && largest > least_drift(meshed.water, meshed.size) {
         let text = format!(
             "far field and control surface differ by {:.1} % of the largest drift, more than {:.0} %: the panels are too large, -PANEL {:.2} would agree",
             100.0 * worst / largest,

@@ -9,7 +9,7 @@ use crate::commands::model::panel_drift::{self, DriftSource, POOR_AGREEMENT};
 use crate::commands::{Job, count};
 use crate::report::pressure_file::{BodyDrift, FileBody, KEY, NO_DRIFT, PressureFile};
 use indicatif::{ProgressBar, ProgressStyle};
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Complex, Rotation3, Vector3};
 use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
@@ -21,9 +21,11 @@ use windlass_base::span::Span;
 use windlass_base::table::{Digits, Table};
 use windlass_base::units::Dim;
 use windlass_diffraction::{
-    DampedPatch, DiffractionBody, DiffractionError, DiffractionProblem, FrequencyForces, FrequencyLimit, HullMesh,
-    MeshQuality, MirrorPlanes, Water, WaveSolution,
+    DampedPatch, DiffractionBody, DiffractionError, DiffractionProblem, ExcitationDifference, ExcitationPair,
+    FrequencyForces, FrequencyLimit, HullMesh, MOTIONS, MeshQuality, MirrorPlanes, Water, WaveSolution,
+    excitation_differences,
 };
+use windlass_hydro::Floating;
 use windlass_hydro::database::checks::MODES;
 use windlass_hydro::database::radiation::{OgilvieQuality, Radiation};
 use windlass_hydro::database::{DatabaseError, capytaine};
@@ -103,6 +105,8 @@ pub struct MeshedBody {
     hull: WettedHull,
     /// Where its origin is (m).
     pub origin: Vector3<f64>,
+    /// From there to its centre of gravity (m); of a body without mass to the water level.
+    arm: Vector3<f64>,
     /// Its heading from that of the group (rad).
     pub turn: f64,
     has_lid: bool,
@@ -266,6 +270,11 @@ impl MeshedBodies {
             // without panels on the bottom that by heights is none
             let volume = mesh.volumes()[if stands { 0 } else { 2 }].abs() * images;
             let origin = shift + Vector3::new(0.0, 0.0, hull.origin_height);
+            // loads that contradict themselves are said where motions need them
+            let centre =
+                Floating::at_rest(model, body).ok().filter(|own| own.mass.mass > 0.0).map(|own| own.mass.centre);
+            let to_group = Rotation3::from_axis_angle(&Vector3::z_axis(), turn).matrix() * hull.axes.transpose();
+            let arm = centre.map_or(Vector3::new(0.0, 0.0, -hull.origin_height), |centre| to_group * centre);
             let (panels, lid_panels) = (mesh.hull().len(), mesh.lid().len());
             let (name, is_refined) = (body.name.clone(), hull.is_refined_by(sizes));
             bodies.push(MeshedBody {
@@ -273,6 +282,7 @@ impl MeshedBodies {
                 key,
                 hull,
                 origin,
+                arm,
                 turn,
                 has_lid,
                 is_refined,
@@ -354,7 +364,7 @@ impl MeshedBodies {
     /// What the results depend on, as a hash: meshes, water, frequencies, headings, and what moves the bodies.
     fn key(&self, headings: &[f64], drift: &DriftSource) -> String {
         let mut hasher = Sha256::new();
-        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 7));
+        hasher.update(concat!("G_PRESSURE ", env!("CARGO_PKG_VERSION"), " ", 9));
         let mut add = |numbers: &mut dyn Iterator<Item = f64>| numbers.for_each(|x| hasher.update(x.to_le_bytes()));
         let Water { density, gravity, depth } = self.water;
         add(&mut [density, gravity, depth.unwrap_or(f64::INFINITY), self.size, self.edge_share].into_iter());
@@ -631,7 +641,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         drift = DriftSource::None(why);
     }
     // what cannot be read is computed anew
-    let is_whole = |bytes: &Vec<u8>| meshed.databases(bytes).is_ok() && Quality::read(bytes).is_ok();
+    let is_whole = |bytes: &Vec<u8>| meshed.databases(bytes).is_ok() && Quality::read(&meshed, bytes).is_ok();
     let (read_from, kept) = if kept.as_ref().is_some_and(|bytes| !is_whole(bytes)) {
         if let Some(path) = &read_from {
             job.remark(format!("{} is damaged: the results are computed", path.display()), span);
@@ -646,7 +656,7 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
         None => solve(job, &meshed, &mut drift, request, &key)?,
     };
     let databases = meshed.databases(&bytes).map_err(wrong)?;
-    let quality = Quality::read(&bytes).map_err(|error| wrong(error.to_string()))?;
+    let quality = Quality::read(&meshed, &bytes).map_err(|error| wrong(error.to_string()))?;
     match &read_from {
         Some(path) => job.say(&format!("read {}: of the same mesh and settings", path.display())),
         None => {
@@ -795,6 +805,11 @@ fn solve(
         drift_check = panel_drift::check_of_largest(drift, meshed, &problem, &drifts, &request.headings);
     }
     let infinite = problem.added_mass_limit(FrequencyLimit::Infinite).map_err(refused)?;
+    let zero = match meshed.water.depth {
+        None => Some(problem.added_mass_limit(FrequencyLimit::Zero).map_err(refused)?),
+        // that of heave has no limit
+        Some(_) => None,
+    };
     let drift = if let DriftSource::None(why) = drift { Err(why.as_str()) } else { Ok(drifts.as_slice()) };
     let bodies = meshed.file_bodies();
     let file = PressureFile {
@@ -806,6 +821,7 @@ fn solve(
         forces: &made,
         energy: &energy,
         infinite: &infinite,
+        zero: zero.as_ref(),
         lids: &meshed.lids,
         drift,
         drift_check,
@@ -819,10 +835,8 @@ fn solve(
 pub struct Quality {
     /// Products of the matrix until the equations were solved.
     products: Vec<f64>,
-    /// Difference of exciting forces by pressure and by Haskind's relation over the largest of the motion, in that where it is largest.
-    pub haskind: Vec<f64>,
-    /// That motion, six a body.
-    haskind_motion: Vec<f64>,
+    /// Exciting forces by pressure and by Haskind's relation, moments about the centre of gravity: in which motion they differ most, and by how much.
+    haskind: Vec<Option<ExcitationDifference>>,
     /// Largest difference of the damping from the energy of the waves far away, over the largest of its kind.
     pub energy: Vec<f64>,
     /// Largest difference of added mass and damping from their transposes, over the largest of their kind.
@@ -835,30 +849,58 @@ pub struct Quality {
 }
 
 impl Quality {
-    fn read(bytes: &[u8]) -> Result<Self, DatabaseError> {
+    fn read(meshed: &MeshedBodies, bytes: &[u8]) -> Result<Self, DatabaseError> {
         let numbers = |name: &str| capytaine::numbers(SOURCE, bytes, name);
+        let (energy, motions) = (numbers("energy_difference")?, MOTIONS * meshed.bodies.len());
+        let has_zero = numbers("omega")?.first() == Some(&0.0);
+        let by_frequency =
+            |name: &str| Ok(excitation_by_frequency(&numbers(name)?, (usize::from(has_zero), energy.len()), motions));
+        let (by_haskind, by_pressure) = (by_frequency("excitation_force")?, by_frequency("pressure_force")?);
+        let pairs: Vec<ExcitationPair> = by_haskind
+            .into_iter()
+            .zip(by_pressure)
+            .map(|(by_haskind, by_pressure)| ExcitationPair { by_haskind, by_pressure })
+            .collect();
+        let arms: Vec<Vector3<f64>> = meshed.bodies.iter().map(|body| body.arm).collect();
         Ok(Quality {
             products: numbers("products")?,
-            haskind: numbers("haskind_difference")?,
-            haskind_motion: numbers("haskind_motion")?,
-            energy: numbers("energy_difference")?,
+            haskind: excitation_differences(&pairs, &arms),
+            energy,
             asymmetry: numbers("asymmetry")?,
             drift: numbers("drift_difference").ok(),
             near_field: numbers("near_field_difference").ok(),
         })
     }
-}
 
-impl Quality {
-    /// The motion where exciting forces differ most at a frequency, by its place, with its body where there are several.
+    /// Difference of exciting forces by pressure and by Haskind's relation at a frequency, over the largest of the motion where it is largest.
+    pub fn haskind(&self, at: usize) -> f64 {
+        self.haskind.get(at).map_or(f64::NAN, |own| own.map_or(0.0, |own| own.share))
+    }
+
+    /// The motion where exciting forces differ most at a frequency, with its body where there are several.
     fn worst_motion(&self, meshed: &MeshedBodies, at: usize) -> String {
-        let motion = self.haskind_motion.get(at).copied().unwrap_or(0.0) as usize;
-        let name = MOTION_NAMES.get(motion % 6).copied().unwrap_or_default();
-        match (meshed.bodies.len(), meshed.bodies.get(motion / 6)) {
+        let motion = self.haskind.get(at).copied().flatten().map_or(0, |own| own.motion);
+        let name = MOTION_NAMES.get(motion % MOTIONS).copied().unwrap_or_default();
+        match (meshed.bodies.len(), meshed.bodies.get(motion / MOTIONS)) {
             (2.., Some(body)) => format!("{} {name}", body.name),
             _ => name.to_owned(),
         }
     }
+}
+
+/// Exciting forces of a file, frequency by frequency and then heading by heading: real parts of all, and imaginary parts of all, each with frequencies before these and a
+/// last one that have none.
+fn excitation_by_frequency(
+    values: &[f64],
+    (before, frequencies): (usize, usize),
+    motions: usize,
+) -> Vec<Vec<Vec<Complex<f64>>>> {
+    let headings = values.len() / (2 * (before + frequencies + 1) * motions).max(1);
+    let (re, im) = values.split_at(values.len() / 2);
+    let rows = |part: &'_ [f64]| part.chunks_exact(motions).map(<[f64]>::to_vec).collect::<Vec<_>>();
+    let together = |(re, im): (Vec<f64>, Vec<f64>)| re.into_iter().zip(im).map(|(a, b)| Complex::new(a, b)).collect();
+    let all: Vec<Vec<Complex<f64>>> = rows(re).into_iter().zip(rows(im)).map(together).collect();
+    (0..frequencies).map(|i| all.iter().skip((before + i) * headings).take(headings).cloned().collect()).collect()
 }
 
 /// The bar of a loop over periods.
@@ -901,8 +943,9 @@ fn warn_of_standing(job: &mut Job, meshed: &MeshedBodies, span: Span) {
 
 fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span: Span) {
     let all = meshed.names();
-    let worst = quality.haskind.iter().enumerate().reduce(|most, other| if other.1 > most.1 { other } else { most });
-    if let Some((at, poor)) = worst.filter(|(_, poor)| **poor > POOR_EXCITATION) {
+    let differences = (0..meshed.frequencies.len()).map(|at| (at, quality.haskind(at)));
+    let worst = differences.reduce(|most, other| if other.1 > most.1 { other } else { most });
+    if let Some((at, poor)) = worst.filter(|(_, poor)| *poor > POOR_EXCITATION) {
         // at edges the difference falls as the size
         let finer = meshed.size * POOR_EXCITATION / poor;
         let text = format!(
@@ -1008,7 +1051,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         .map(|(i, frequency)| PeriodRow {
             period: TAU / frequency,
             length: wave_length(*frequency, water),
-            haskind: 100.0 * at(&quality.haskind, i),
+            haskind: 100.0 * quality.haskind(i),
             worst: quality.worst_motion(meshed, i),
             products: at(&quality.products, i) as usize,
             drift: share(&quality.drift, i),
@@ -1088,7 +1131,7 @@ fn report(meshed: &MeshedBodies, quality: &Quality, (drift, databases): (&str, &
         table.note("Ogilvie's relation: by how much added mass at infinite frequency is off that by added mass and damping at all others, and these from it, where most");
     }
     table.note(
-        "Haskind: difference of exciting forces by pressure and by Haskind's relation, per cent of the largest of the motion at the period, and of a fifth of its largest at all periods at least, in that where it is largest",
+        "Haskind: difference of exciting forces by pressure and by Haskind's relation, moments about the centre of gravity, per cent of the largest of the motion at the period, and of a fifth of its largest at all periods at least, in that where it is largest",
     );
     if !meshed.lids.is_empty() {
         table.note("the surface of each damping lid takes energy from the waves by its epsilon: what stands here is that of the epsilon that was given, which measurements or a model of the losses have to tell");

@@ -23,7 +23,8 @@ use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, Va
 use windlass_model::{Environment, Model, find};
 use windlass_solve::beyond_database::{warnings_of_frequencies, warnings_of_sea};
 use windlass_solve::frequency::{
-    ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, respond,
+    ExtremeKind, FrequencyResponse, LinearSystem, Operators, ResponseOptions, Trains, WaveBand, respond,
+    warnings_of_free_drift, warnings_of_modes,
 };
 
 /// FREQ_RESPONSE.
@@ -239,6 +240,8 @@ fn rao(job: &mut Job, call: &Call) -> Outcome<Effect> {
     table.add_notes(linear.notes.iter().cloned());
     table.add_notes(linear.without_waves.iter().map(TableNote::warning));
     table.add_notes(warnings_of_frequencies(&job.model, &periods).into_iter().map(TableNote::warning));
+    let waves = WaveBand { frequencies: &periods, headings: &headings };
+    table.add_notes(warnings_of_modes(&linear, waves).into_iter().map(TableNote::warning));
     let [shift, turn] = largest_operators(&linear, &made, job.units);
     let what = format!("{} and {}", count(periods.len(), "period"), count(headings.len(), "heading"));
     let summary = SolveSummary::new(format!("RAO: motions in unit waves of {what}"))
@@ -304,6 +307,10 @@ fn sresponse(job: &mut Job, call: &Call) -> Outcome<Effect> {
     table.add_notes(linear.without_waves.iter().map(TableNote::warning));
     let of_sea = warnings_of_sea(&model).map_err(|e| e.diagnostic(args.span, job.units))?;
     table.add_notes(of_sea.into_iter().map(TableNote::warning));
+    let (met, headings): (Vec<f64>, _) = (made.waves.iter().map(|point| point.frequency).collect(), trains.headings());
+    let waves = WaveBand { frequencies: &met, headings: &headings };
+    let of_modes = warnings_of_modes(&linear, waves).into_iter().chain(warnings_of_free_drift(&linear));
+    table.add_notes(of_modes.map(TableNote::warning));
     let extreme = probability::extreme(&model);
     let kind = extreme.unwrap_or(ExtremeKind::MostProbable(MPM_DURATION_S));
     let both = (&linear, &made);

@@ -96,14 +96,17 @@ fn drift_word(attached: &AttachedDatabase) -> &'static str {
 fn radiation_table(body: &Body, attached: &AttachedDatabase, radiation: &Radiation) -> Table {
     let data = &attached.data;
     let at = |w: f64| Some((Some(w), data.added_mass_at(w)?, Some(data.damping_at(w)?)));
-    let mut rows: Vec<_> = data.frequencies.iter().filter_map(|w| at(*w)).collect();
+    let zero = data.zero.and_then(|_| Some((Some(0.0), data.added_mass_at(0.0)?, None)));
+    let mut rows: Vec<_> = zero.into_iter().chain(data.frequencies.iter().filter_map(|w| at(*w))).collect();
     rows.push((None, radiation.infinite, None));
     let mut table = Table::new(format!("Radiation of {}", body.name))
         .with_rows(&rows)
         .column("", "Frequency", Dim::Frequency, Digits::Decimals(4), |(w, ..)| {
             w.map_or(Cell::from("infinite"), Cell::Number)
         })
-        .column("", "Period", Dim::Time, Digits::Decimals(3), |(w, ..)| w.map_or(0.0, |w| TAU / w))
+        .column("", "Period", Dim::Time, Digits::Decimals(3), |(w, ..)| {
+            w.map_or(Some(0.0), |w| Some(TAU / w).filter(|period| period.is_finite()))
+        })
         .columns("Added Mass, SI", MODES, Dim::None, Digits::Scientific(4), |(_, added, _)| diagonal(added))
         .columns("Damping, SI", MODES, Dim::None, Digits::Scientific(4), |(.., damping)| {
             damping.as_ref().map_or([None; 6], |damping| diagonal(damping).map(Some))

@@ -185,6 +185,21 @@ fn ball(radius: f64, m: usize, held: &str, centre: f64, records: &str) -> (windl
 }
 
 #[test]
+fn added_mass_at_zero_frequency_is_in_database_and_its_report() {
+    // surge: half the displaced mass, that of a whole sphere in unbounded water; flat panels of 1 m on a radius of 10 m enclose 1 % less
+    let records =
+        "HYDRODYNAMICS\nG_PRESSURE BALL -PERIOD 8 9 -HEADING 0 -PANEL 1 -MEAN_DRIFT NO\nEND\n&STATUS DATABASE\n";
+    let (session, text) = ball(10.0, 16, "", 0.0, records);
+    let mass = 2.0 / 3.0 * PI * 1e3 * 1025.0;
+    let zero = session.job.model.bodies["BALL"].database.as_ref().unwrap().data.zero.unwrap();
+    assert!((zero[(0, 0)] / mass - 0.5).abs() < 0.01, "{}", zero[(0, 0)] / mass);
+    let row = text.lines().find(|line| line.trim_start().starts_with("0.0000")).unwrap_or_else(|| panic!("{text}"));
+    let surge: f64 = row.split_whitespace().filter_map(|word| word.parse().ok()).nth(1).unwrap();
+    // four digits
+    assert!((surge / zero[(0, 0)] - 1.0).abs() < 5e-4, "{row}");
+}
+
+#[test]
 fn drift_of_hemisphere_by_records_meets_exact_series() {
     // K = omega2 a/g, drift of the body held and free over rho g a: exact series, as in crates/diffraction/tests/data/hemisphere.csv;
     // far field 1 %, control surface 1.5 %, near field 3 % of the largest of each, 0.648 and 0.872
@@ -592,9 +607,17 @@ fn file_of_panels_is_taken_again_and_reads_back_the_same() {
 
 #[test]
 fn check_of_panels_shows_change_with_finer_mesh() {
-    // the change of a result is that of a run with panels shorter by the root of two
+    // the change of a result is that of a run with panels of the size that has twice as many: 4 m divides the barge of 90 x 30 x 3.7 m, a quarter of which is solved, into
+    // whole panels, of which 2.83 m make fewer than twice as many
     let (data, text) = database("0 0 0", BARGE, "-PERIOD 8 10 -HEADING 180 -PANEL 4 -CHECK");
-    let (fine, _) = database("0 0 0", BARGE, &format!("-PERIOD 8 10 -HEADING 180 -PANEL {}", 4.0 / 2f64.sqrt()));
+    let fact = |name: &str| -> f64 {
+        let line =
+            text.lines().find(|line| line.trim_start().starts_with(name)).unwrap_or_else(|| panic!("{name}: {text}"));
+        line.split_whitespace().filter_map(|word| word.parse().ok()).next().unwrap()
+    };
+    let [own, more] = ["Panels  ", "Panels of the Finer Mesh"].map(fact);
+    assert!(more >= 2.0 * own && more < 2.3 * own, "{own} {more}");
+    let (fine, _) = database("0 0 0", BARGE, &format!("-PERIOD 8 10 -HEADING 180 -PANEL {}", fact("Finer Panels")));
     let (data, fine) = (data.unwrap(), fine.unwrap());
     let row = text.lines().find(|line| line.contains("added mass") && line.contains("BARGE Z-Z"));
     let numbers: Vec<f64> =
@@ -947,6 +970,8 @@ fn one_period_serves_motions_and_waves_beyond_it_are_said() {
     );
     let drift = "the mean drift of BARGE in its database has periods of 8.00 s alone: 76 % of the energy of the sea is in longer waves, for which the drift of its longest period stands; 24 %";
     assert!(text.contains(drift), "{text}");
+    // nothing holds it
+    assert!(text.contains("nothing holds BARGE in ") && text.contains("drift carries it away"), "{text}");
     assert!(text.contains("its database has one frequency only"), "{text}");
     assert_eq!(session.errors, 1, "{text}");
 }

@@ -448,3 +448,50 @@ fn dynamic_lines_are_reported_as_quasi_static_in_frequency_domain() {
         assert_eq!(found, reported, "{:?}", linear.notes);
     }
 }
+
+/// A body of 20000 kN that heaves and rolls with an added weight of 10000 kN, 3000 kN/m of hydrostatic stiffness and 30 kN s/m of damping, with its stiffness in roll (kN m)
+/// and further records.
+fn said_of_rao(roll: f64, more: &str, rao: &str) -> String {
+    let (mut session, _, _folder) = common::session();
+    let row = |values: [f64; 6]| values.map(|v| v.to_string()).join(" ");
+    let matrix = |heave: f64, roll: f64| {
+        let rows = [0.0, 0.0, heave, roll, 0.0, 0.0];
+        let all: Vec<String> =
+            (0..6).map(|i| row(std::array::from_fn(|j| if i == j { rows[i] } else { 0.0 }))).collect();
+        all.join(" ")
+    };
+    let period = |t: f64| {
+        format!(
+            "H_PERIOD {t}\nH_AMASS {}\nH_DAMP {}\nH_FORCE 180 0 0 0 0 1500 20 0 0 0 0 0 0\n",
+            matrix(1e4, 1e4),
+            matrix(30.0, 1e5)
+        )
+    };
+    let records = format!(
+        "&DIMEN -DIMEN METERS K-NTS\nMEDIT\n&DESCRIBE BODY BALL -IGNORE X Y RY RZ\n*CG 0 0 0\n#WEIGHT *CG 20000 4 4 4\n\
+         #HYDROSTATIC *CG 3000 {roll} 1E5 -BUOYANCY 20000 -ZCGE 0\n{more}END\nHYDRODYNAMICS\nI_TOTAL BALL\nH_ORIGIN 0 0 0\n{}{}END_I_TOTAL\nEND\n\
+         FREQ_RESPONSE\n{rao}\nEND\n",
+        period(5.0),
+        period(9.0)
+    );
+    run(&mut session, &records);
+    session.reports.iter().map(|report| report.message.clone()).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn modes_of_little_damping_at_periods_of_waves_are_named() {
+    // 2 pi sqrt(30000/9.80665/3000) = 6.34 s; 30/(2 sqrt(3000 30000/9.80665)) = 0.495 %
+    let text = said_of_rao(1e5, "", "RAO");
+    let (period, ratio) = (TAU * (3e4 / G / 3e3_f64).sqrt(), 50.0 * 30.0 / (3e3 * 3e4 / G).sqrt());
+    let said = format!("BALL Z has {ratio:.2} % of critical damping at its natural period of {period:.2} s");
+    assert!(text.contains(&said), "{said}: {text}");
+    // a wave has no part of roll, nor of heave far from its period, and 200 kN s/m are 3.8 %
+    assert!(!text.contains("BALL RX has"), "{text}");
+    for (more, rao) in [("", "RAO -PERIOD 8 9"), ("#DAMP *CG 0 0 200\n", "RAO")] {
+        let text = said_of_rao(1e5, more, rao);
+        assert!(!text.contains("of critical damping"), "{text}");
+    }
+    assert!(!text.contains("is not stable"), "{text}");
+    let text = said_of_rao(-1e5, "", "RAO");
+    assert!(text.contains("BALL is not stable in RX"), "{text}");
+}

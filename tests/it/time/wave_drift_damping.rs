@@ -364,5 +364,5 @@ fn drift_of_one_heading_or_far_frequencies_is_named() {
     let peak = [(0.4, 0.0), (0.6, 0.0), (0.8, 1e5), (1.0, 0.0), (1.2, 0.0), (1.4, 0.0)];
     attach(&mut model, along_waves(peak.into_iter()));
     let said = body_drift_dampings(&model).unwrap();
-    assert!(said[0].warnings.iter().any(|text| text.contains("the wave drift damping of B is not sure")), "{said:?}");
+    assert!(said[0].warnings.iter().any(|text| text.contains("the wave drift damping of B is uncertain")), "{said:?}");
 }

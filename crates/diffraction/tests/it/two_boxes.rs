@@ -1,8 +1,8 @@
 use nalgebra::{Complex, Vector3};
 use std::f64::consts::PI;
 use windlass_diffraction::{
-    ControlCylinder, ControlSurface, ControlSurfaceDrift, DiffractionBody, DiffractionProblem, HullMesh, MirrorPlanes,
-    Water,
+    ControlCylinder, ControlSurface, ControlSurfaceDrift, DiffractionBody, DiffractionProblem, ExcitationDifference,
+    ExcitationPair, FrequencyForces, HullMesh, MirrorPlanes, Water, excitation_differences,
 };
 
 const WATER: Water = Water { density: 1000.0, gravity: 9.81, depth: None };
@@ -262,11 +262,16 @@ fn halves_of_two_boxes_give_same_as_whole_ones() {
     assert!((one.surge - other.surge).hypot(one.sway - other.sway) < 1e-4 * one.sway.abs(), "{one:?} {other:?}");
 }
 
+/// The difference of both exciting forces at a frequency, about the origins of the bodies.
+fn difference_of(forces: &FrequencyForces) -> Option<ExcitationDifference> {
+    excitation_differences(&[ExcitationPair::new(forces)], &[])[0]
+}
+
 #[test]
 fn difference_of_excitations_falls_with_panel_size() {
     let difference = |counts: [usize; 3]| {
         let problem = DiffractionProblem::new(&[box_of(counts, 0.0)], WATER).unwrap();
-        problem.solve(3.5, &[0.5]).unwrap().excitation_difference().unwrap().share
+        difference_of(&problem.solve(3.5, &[0.5]).unwrap()).unwrap().share
     };
     let [coarse, fine] = [[7, 4, 3], [14, 8, 7]].map(difference);
     // of the motion where it is worst, a moment of small panels' differences
@@ -282,14 +287,25 @@ fn difference_of_excitations_is_of_each_motion_over_its_own_largest() {
     forces.excitation = vec![row([8.0, 4.0, 50.0, 20.0, 1000.0, 1.0]), row([2.0, 10.0, 40.0, 5.0, 300.0, 0.0])];
     forces.pressure_excitation =
         vec![row([8.4, 4.0, 50.0, 20.0, 1010.0, 0.0]), row([2.0, 10.2, 40.0, 3.0, 300.0, 0.0])];
-    let found = forces.excitation_difference().unwrap();
+    let found = difference_of(&forces).unwrap();
     assert!(found.motion == 0 && (found.share - 0.05).abs() < 1e-12, "{found:?}");
     forces.excitation[0][4] = Complex::from(400.0);
     forces.pressure_excitation[0][4] = Complex::from(400.0);
     // now a twentieth is 20, as large as roll itself
-    let found = forces.excitation_difference().unwrap();
+    let found = difference_of(&forces).unwrap();
     assert!(found.motion == 3 && (found.share - 0.1).abs() < 1e-12, "{found:?}");
-    assert!(problem.solve(3.5, &[]).unwrap().excitation_difference().is_none());
+    // about a point 5 m above the origin pitch has 5 times surge less, 360 at most, of which a twentieth is 18; roll has 5 times sway more, 55 and 54
+    let about = excitation_differences(&[ExcitationPair::new(&forces)], &[Vector3::new(0.0, 0.0, 5.0)])[0].unwrap();
+    assert!(about.motion == 5 && (about.share - 1.0 / 18.0).abs() < 1e-12, "{about:?}");
+    // beside a frequency where surge is 200, the 0.4 and yaw's 1 are measured by a fifth of the largest: roll by 18, as before
+    forces.pressure_excitation[0][5] = Complex::from(1.0);
+    let mut other = forces.clone();
+    other.excitation[0][0] = Complex::from(200.0);
+    other.pressure_excitation[0][0] = Complex::from(200.0);
+    let both = excitation_differences(&[ExcitationPair::new(&forces), ExcitationPair::new(&other)], &[]);
+    let first = both[0].unwrap();
+    assert!(first.motion == 3 && (first.share - 0.1).abs() < 1e-12, "{first:?}");
+    assert!(difference_of(&problem.solve(3.5, &[]).unwrap()).is_none());
 }
 
 #[test]

@@ -347,7 +347,9 @@ impl Set<'_> {
         }
         let drift = self.numbers("mean_drift")?;
         let directions = self.numbers("wave_direction")?.values;
-        let omega = self.numbers(along)?.values;
+        // zero and infinity have no drift
+        let mut omega = self.numbers(along)?.values;
+        omega.retain(|w| *w > 0.0 && w.is_finite());
         let place = |list: &[f64], same: &dyn Fn(f64) -> bool| list.iter().position(|x| same(*x));
         let value = |heading: f64, frequency: f64| -> Option<[f64; 6]> {
             let h = place(&directions, &|x| super::rows::same_heading(rows_heading(x), heading))?;

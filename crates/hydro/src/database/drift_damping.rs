@@ -105,6 +105,11 @@ impl DriftByVelocity {
         self.current
     }
 
+    /// The frequency of waves (rad/s) by the speed of the current over gravity, in which the formula is linear.
+    pub fn speed_number(&self, frequency: f64) -> f64 {
+        frequency * self.current.norm() / self.gravity
+    }
+
     /// Whether water is deep for waves of a frequency (rad/s).
     pub fn is_deep(&self, frequency: f64) -> bool {
         frequency >= self.least

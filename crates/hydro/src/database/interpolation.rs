@@ -58,16 +58,23 @@ pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket,
         }
     }
     if gap > WIDEST_GAP {
-        let [turn, a, b] = [turn, a, b].map(f64::to_degrees);
+        let [turn, a, b] = [turn, a, b].map(rounded_degrees);
         let why = if count == 1 {
-            format!("it has those toward {a:.1} degrees alone")
+            format!("it has those toward {a} degrees alone")
         } else {
-            format!("its headings leave a gap from {a:.1} to {b:.1}")
+            format!("its headings leave a gap from {a} to {b}")
         };
-        let text = format!("the database has no waves toward {turn:.1} degrees in the body: {why}");
+        let text = format!("the database has no waves toward {turn} degrees in the body: {why}");
         return Err(ClassError::new(text).help("compute the database for headings all round, 90 degrees apart at most"));
     }
     Ok((low, high, from / gap))
+}
+
+/// An angle (rad) in degrees from 0 to 360, to as many digits as tell headings apart that are not the same.
+fn rounded_degrees(angle: f64) -> f64 {
+    let degrees = (angle.to_degrees() * 1e4).round() / 1e4;
+    // no zero with a sign
+    degrees.rem_euclid(360.0) + 0.0
 }
 
 /// The headings of a database, and between them as many equally far apart as leave no gap wider than three degrees; gaps that are not interpolated

@@ -370,7 +370,7 @@ impl OgilvieQuality {
             format!("{:.1} % in {}", 100.0 * share.abs(), MODES.get(direction).copied().unwrap_or_default())
         };
         let (stray, is_warning) = (percent(self.stray), self.stray.0 > MAX_OGILVIE_ERROR);
-        match self.shift {
+        let (text, is_warning) = match self.shift {
             None if is_given => (
                 format!(
                     "its frequencies are too few to see how its added mass at infinite frequency goes with Ogilvie's relation; single frequencies stray from it by {stray}"
@@ -390,7 +390,9 @@ impl OgilvieQuality {
                 ),
                 is_warning || shift.0.abs() > MAX_OGILVIE_ERROR,
             ),
-        }
+        };
+        let remedy = "; runs in time need a database of more periods, shorter ones above all, and motions in the frequency domain do not";
+        (if is_warning { text + remedy } else { text }, is_warning)
     }
 }
 

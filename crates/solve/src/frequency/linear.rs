@@ -324,6 +324,22 @@ impl LinearSystem {
         self.floats.iter().flatten().any(|f| !f.attached.data.excitation.is_empty())
     }
 
+    /// What floats by a database of a body, by its name.
+    fn floats_of(&self, name: &str) -> Option<&Floats> {
+        let index = self.system.nodes.iter().position(|node| node.name == name)?;
+        self.floats.get(index)?.as_ref()
+    }
+
+    /// Whether a body has a database, by its name.
+    pub(super) fn has_database(&self, name: &str) -> bool {
+        self.floats_of(name).is_some()
+    }
+
+    /// Whether slow drift acts on a body, by its name.
+    pub(super) fn drifts(&self, name: &str) -> bool {
+        self.floats_of(name).is_some_and(|floats| floats.drift.is_some())
+    }
+
     /// The frequencies of the databases (rad/s), growing.
     pub fn frequencies(&self) -> Vec<f64> {
         let all = self.floats.iter().flatten().flat_map(|f| f.attached.data.frequencies.iter().copied());

@@ -5,6 +5,7 @@
 //! [`LinearQuantity`] what is asked of the motions, [`FrequencyResponse`] the motions in a sea with their spectra and statistics.
 
 mod equations;
+mod light_modes;
 mod linear;
 mod linearise;
 mod natural;
@@ -17,6 +18,7 @@ pub mod tables;
 mod trains;
 
 pub use equations::{Frame, diagonals, exciting_forces, matrices, stiffness};
+pub use light_modes::{WaveBand, warnings_of_free_drift, warnings_of_modes};
 pub use linear::{LinearSystem, Motions};
 pub use natural::{Natural, natural};
 pub use operators::{Operator, Operators};

@@ -1,5 +1,6 @@
 //! A sea as energy over frequency and direction.
 
+use std::f64::consts::PI;
 use windlass_base::geometry::unit_vector;
 use windlass_hydro::sea::density::Spectrum;
 use windlass_hydro::sea::{Sea, spreading};
@@ -34,6 +35,12 @@ pub struct Trains {
 }
 
 impl Trains {
+    /// Where their waves come from (rad).
+    pub fn headings(&self) -> Vec<f64> {
+        let irregular = self.irregular.iter().flat_map(|sea| sea.toward.iter().copied());
+        irregular.chain(self.regular.iter().map(|(_, toward, _)| *toward)).map(|toward| toward + PI).collect()
+    }
+
     /// Those of an environment; `None` for calm water. With `-SPREAD` the energy stands in eleven directions of equal shares.
     ///
     /// # Errors
