@@ -3,7 +3,8 @@
 
 use super::linear::LinearSystem;
 use super::natural::{Natural, natural};
-use crate::equilibrium::is_unstable;
+use crate::equilibrium::{UNRESTRAINED_EIGENVALUE, is_unstable};
+use crate::system::{DOFS, SystemBody};
 use nalgebra::Complex;
 use std::f64::consts::{PI, TAU};
 
@@ -62,27 +63,29 @@ pub fn warnings_of_modes(linear: &LinearSystem, waves: WaveBand) -> Vec<String> 
     list
 }
 
-/// The bodies with slow drift that nothing holds against it, a sentence each; none of systems of more than 60 degrees of freedom.
+/// The bodies with slow drift that nothing holds against it, a sentence each.
 pub fn warnings_of_free_drift(linear: &LinearSystem) -> Vec<String> {
-    if linear.stiffness.nrows() > MAX_DOFS {
-        return Vec::new();
-    }
-    let modes = natural(linear).unwrap_or_default();
-    let loose: Vec<&(String, &'static str)> = modes
-        .iter()
-        .filter(|own| own.damping.is_none() && DRIFTING.contains(&own.mode.most.1) && linear.drifts(&own.mode.most.0))
-        .map(|own| &own.mode.most)
-        .collect();
-    let mut bodies: Vec<&str> = loose.iter().map(|(body, _)| body.as_str()).collect();
-    bodies.dedup();
-    let of = |body: &&str| {
-        let dofs: Vec<&str> = loose.iter().filter(|(own, _)| own == body).map(|(_, dof)| *dof).collect();
-        format!(
-            "nothing holds {body} in {}: drift carries it away, and its mean and slow motions there mean nothing; moorings hold it; -MEAN_DRIFT NO of G_PRESSURE and -DRIFT NONE of DATABASE leave drift out",
-            dofs.join(", ")
-        )
+    let (mass, _) = linear.inertia_and_damping(0.0);
+    // not by the shapes of modes, which are any mixture of the motions that nothing holds
+    let is_loose = |at: usize| linear.stiffness[(at, at)].abs() <= UNRESTRAINED_EIGENVALUE * mass[(at, at)];
+    let of_body = |(index, node): (usize, &SystemBody)| {
+        let dofs: Vec<&str> = DRIFTING
+            .iter()
+            .filter(|dof| {
+                let at = DOFS.iter().position(|own| own == *dof);
+                at.is_some_and(|at| node.moves(at) && is_loose(DOFS.len() * index + at))
+            })
+            .copied()
+            .collect();
+        (linear.drifts(&node.name) && !dofs.is_empty()).then(|| {
+            format!(
+                "nothing holds {} in {}: drift carries it away, and its mean and slow motions there mean nothing; moorings hold it; -MEAN_DRIFT NO of G_PRESSURE and -DRIFT NONE of DATABASE leave drift out",
+                node.name,
+                dofs.join(", ")
+            )
+        })
     };
-    bodies.iter().map(of).collect()
+    linear.system.nodes.iter().enumerate().filter_map(of_body).collect()
 }
 
 impl WaveBand<'_> {
