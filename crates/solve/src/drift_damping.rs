@@ -102,34 +102,36 @@ fn of_body(model: &Model, body: &Body) -> Result<Option<BodyDriftDamping>, Class
     Ok(Some(BodyDriftDamping { name, damping: own_axes(&on_plan), by_current, warnings, notes }))
 }
 
-/// The warning of waves for which the water is not deep, where they have much of the energy.
-fn shallow_waves(model: &Model, name: &str, made: &DriftByVelocity) -> Result<Option<String>, ClassError> {
-    let (mut shallow, mut whole) = (0.0, 0.0);
+/// Share of the energy of the sea in waves of some frequencies (rad/s).
+fn energy_share(model: &Model, counts: impl Fn(f64) -> bool) -> Result<f64, ClassError> {
+    let (mut part, mut whole) = (0.0, 0.0);
     for (frequency, energy) in Steady::new(model)?.waves.iter().flat_map(|(_, waves)| &waves.energies) {
         whole += energy;
-        shallow += if made.is_deep(*frequency) { 0.0 } else { *energy };
+        part += if counts(*frequency) { *energy } else { 0.0 };
     }
-    Ok((shallow > SHALLOW_SHARE * whole).then(|| {
+    Ok(if whole > 0.0 { part / whole } else { 0.0 })
+}
+
+/// The warning of waves for which the water is not deep, where they have much of the energy.
+fn shallow_waves(model: &Model, name: &str, made: &DriftByVelocity) -> Result<Option<String>, ClassError> {
+    let shallow = energy_share(model, |frequency| !made.is_deep(frequency))?;
+    Ok((shallow > SHALLOW_SHARE).then(|| {
         format!(
             "waves with {:.0} % of the energy of the sea have no part in the wave drift damping of {name}, nor in what a current changes of its drift: the water is not deep \
              for them, less than half their length, and the formula of Aranha holds in deep water alone",
-            100.0 * shallow / whole
+            100.0 * shallow
         )
     }))
 }
 
 /// The warning of a current that is too fast for waves with much of the energy.
 fn fast_current(model: &Model, name: &str, made: &DriftByVelocity) -> Result<Option<String>, ClassError> {
-    let (mut fast, mut whole) = (0.0, 0.0);
-    for (frequency, energy) in Steady::new(model)?.waves.iter().flat_map(|(_, waves)| &waves.energies) {
-        whole += energy;
-        fast += if made.speed_number(*frequency) > FASTEST_CURRENT { *energy } else { 0.0 };
-    }
-    Ok((fast > FAST_SHARE * whole).then(|| {
+    let fast = energy_share(model, |frequency| made.speed_number(frequency) > FASTEST_CURRENT)?;
+    Ok((fast > FAST_SHARE).then(|| {
         format!(
             "what the current changes of the mean drift of {name} is uncertain: the formula of Aranha is linear in its speed, and for waves with {:.0} % of the energy of the \
              sea the frequency by the speed over gravity is above {FASTEST_CURRENT}; -DD_MULT 0 leaves the change out",
-            100.0 * fast / whole
+            100.0 * fast
         )
     }))
 }

@@ -975,3 +975,17 @@ fn one_period_serves_motions_and_waves_beyond_it_are_said() {
     assert!(text.contains("its database has one frequency only"), "{text}");
     assert_eq!(session.errors, 1, "{text}");
 }
+
+#[test]
+fn options_of_another_source_of_a_database_are_refused() {
+    let (mut session, _screen, _folder) = common::session();
+    let file = "tests/data/hemisphere/hemisphere.nc";
+    session.open(
+        "records",
+        format!("&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\nDATABASE B -CAPYTAINE {file} -XBODY 1 2\nDATABASE B -CAPYTAINE {file} -PHASE LEAD\nEND\n"),
+    );
+    session.run();
+    let said: Vec<&str> = session.reports.iter().map(|report| report.message.as_str()).collect();
+    assert_eq!(said, ["-XBODY goes with -WAMIT, not with -CAPYTAINE", "-PHASE goes with -RAO, not with -CAPYTAINE"]);
+    assert!(session.job.model.bodies["B"].database.is_none());
+}

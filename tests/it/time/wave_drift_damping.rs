@@ -366,3 +366,16 @@ fn drift_of_one_heading_or_far_frequencies_is_named() {
     let said = body_drift_dampings(&model).unwrap();
     assert!(said[0].warnings.iter().any(|text| text.contains("the wave drift damping of B is uncertain")), "{said:?}");
 }
+
+#[test]
+fn current_too_fast_for_linear_formula_is_named() {
+    // 0.8 rad/s by the speed over 9.80665 m/s2 is 0.15 at 1.839 m/s
+    for (speed, is_fast) in [(1.85, true), (1.82, false)] {
+        let environment = format!("&ENV -SEA REGULAR 180 2 {} -CURRENT {speed} 180", TAU / 0.8);
+        let mut model = on_spring(1e6, 1e3, &environment);
+        attach(&mut model, hemisphere_without(&[]));
+        let said = body_drift_dampings(&model).unwrap();
+        let named = said[0].warnings.iter().any(|text| text.contains("waves with 100 % of the energy of the sea"));
+        assert_eq!(named, is_fast, "{speed}: {said:?}");
+    }
+}
