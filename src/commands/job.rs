@@ -326,6 +326,8 @@ pub struct Job {
     pub shapes: IndexMap<String, SectionShape>,
     /// ASSEMBLY records of an open INMODEL, waiting for their connectors.
     pub deferred_assemblies: Vec<Args>,
+    /// Pieces of an open `&SURFACE`, not yet held against the others of their bodies.
+    pub uncompared_pieces: Vec<String>,
     /// Files of `&FILE`.
     pub user_files: UserFiles,
     /// Files that STORE has named by itself.
@@ -409,6 +411,7 @@ impl Job {
             last_severity: None,
             deferred: Vec::new(),
             deferred_assemblies: Vec::new(),
+            uncompared_pieces: Vec::new(),
             deferred_elements: Vec::new(),
             shapes: IndexMap::new(),
             user_files: UserFiles::default(),

@@ -210,6 +210,7 @@ pub fn finish(job: &mut Job, left: Menu, at: Option<Span>) -> Vec<Diagnostic> {
             notices
         }
         Menu::Medit | Menu::Mesh(_) => piece::complete_piece(job, at),
+        Menu::Surface => piece::finish_surface(job, at),
         Menu::Block(planes) => pgen::finish_block(job, *planes, at).err().into_iter().map(|e| *e).collect(),
         Menu::Building(building) => {
             buildg::open_built_table(job, &building, at).err().into_iter().map(|e| *e).collect()

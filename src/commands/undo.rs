@@ -179,6 +179,7 @@ fn visit_state(job: &mut Job, visitor: &mut impl PartVisitor) {
     visitor.visit(&mut job.deferred);
     visitor.visit(&mut job.deferred_elements);
     visitor.visit(&mut job.deferred_assemblies);
+    visitor.visit(&mut job.uncompared_pieces);
     visitor.visit(&mut job.shapes);
     visitor.visit(&mut job.actions);
     visitor.visit(&mut job.equilibrium);

@@ -366,13 +366,28 @@ fn tube_of(part: &Part, piece: &Piece) -> Option<TubeHull> {
     }
 }
 
-/// What is wrong with a piece, by itself and beside the others of its body; places in the system of the body.
-pub fn piece_faults(model: &Model, body: &Body, part: &Part, piece: &Piece) -> Vec<PieceFault> {
-    let Solidified { form, mut faults } = Solidified::new(part, piece, Surface::faults);
-    let Some(surface) = form.and_then(SolidForm::surface) else { return faults };
+/// What is wrong with a piece by itself; places in the system of the body.
+pub fn piece_faults(part: &Part, piece: &Piece) -> Vec<PieceFault> {
+    Solidified::new(part, piece, Surface::faults).faults
+}
+
+/// Where a piece overlaps others of its body that count as it does, one place (m) a piece in the system of the body; pieces that `is_left_out` names are not
+/// looked at.
+pub fn piece_overlaps(
+    model: &Model,
+    body: &Body,
+    part: &Part,
+    piece: &Piece,
+    is_left_out: impl Fn(&str) -> bool,
+) -> Vec<PieceFault> {
+    let mut faults = Vec::new();
+    let Some(surface) = Solidified::new(part, piece, Surface::leaks).form.and_then(SolidForm::surface) else {
+        return faults;
+    };
     let bounds = bounds(part, piece);
     let round = tube_of(part, piece);
-    for other in model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece))) {
+    let others = model.parts_of(body).flat_map(|p| p.pieces.iter().map(move |piece| (p, piece)));
+    for other in others.filter(|(_, other)| !is_left_out(&other.name)) {
         // an interior lies within an exterior; two of one sort count twice where they overlap
         let apart =
             other.1.compartment != piece.compartment && (other.1.compartment.is_none() || piece.compartment.is_none());

@@ -58,7 +58,7 @@ pub mod wind;
 
 pub use ambient::ambient;
 pub use body_load::{BodyLoad, BodyStep, DividedLoad, DynamicLoad, Immersed, InertialLoad, PreparedLoad, StatefulLoad};
-pub use buoyancy::{Hull, PieceFault, combine_pieces, piece_faults};
+pub use buoyancy::{Hull, PieceFault, combine_pieces, piece_faults, piece_overlaps};
 pub use tank::{Liquid, Tank, balance_tanks, compartments_of, contents_mass, laden_mass};
 
 use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3};

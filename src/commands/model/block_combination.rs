@@ -238,6 +238,7 @@ fn rename(job: &mut Job, call: &Call) -> Outcome<Effect> {
     if let Some(piece) = job.model.piece_mut(&old.name) {
         piece.name = new.to_string();
     }
+    job.uncompared_pieces.iter_mut().filter(|name| **name == old.name).for_each(|name| *name = new.to_string());
     job.note_name(new, args.position(NEW_NAME));
     Ok(Effect::Done)
 }

@@ -417,16 +417,61 @@ pub fn finish_piece(job: &mut Job) {
     job.notices.extend(found);
 }
 
-/// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name.
+/// The piece whose panels were being given is complete: what is wrong with it, at the record that completes it, else at its name. In `&SURFACE`, where a record to
+/// come may make one piece of two, it is held against the others at the end of the menu.
 pub fn complete_piece(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
-    let Some(name) = job.model.current_piece.take() else { return Vec::new() };
-    let Some((part, piece)) = job.model.piece(&name) else { return Vec::new() };
+    let Some((name, mut found)) = take_current(job, at) else { return Vec::new() };
+    if job.menus.iter().any(|menu| matches!(menu, Menu::Surface)) {
+        await_comparison(job, name);
+    } else {
+        found.extend(overlaps(job, &name, &[], at));
+    }
+    found
+}
+
+/// The end of `&SURFACE`: its last piece is complete, and those that it made are held against the others of their bodies, each pair once.
+pub fn finish_surface(job: &mut Job, at: Option<Span>) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    if let Some((name, own)) = take_current(job, at) {
+        await_comparison(job, name);
+        found = own;
+    }
+    let names = std::mem::take(&mut job.uncompared_pieces);
+    let mut later = names.as_slice();
+    while let [name, rest @ ..] = later {
+        found.extend(overlaps(job, name, rest, None));
+        later = rest;
+    }
+    found
+}
+
+/// The piece of a body whose panels were being given, which is given no longer, and what is wrong with it by itself.
+fn take_current(job: &mut Job, at: Option<Span>) -> Option<(String, Vec<Diagnostic>)> {
+    let name = job.model.current_piece.take()?;
+    let (part, piece) = job.model.piece(&name)?;
+    job.model.bodies.get(&Model::key(&part.body))?;
+    let faults = hydro::piece_faults(part, piece);
+    let found = faults.iter().map(|fault| piece_diagnostic(job, fault, piece, at)).collect();
+    Some((name, found))
+}
+
+fn await_comparison(job: &mut Job, name: String) {
+    if !job.uncompared_pieces.contains(&name) {
+        job.uncompared_pieces.push(name);
+    }
+}
+
+/// Where a piece overlaps others of its body, but for those to come.
+fn overlaps(job: &Job, name: &str, later: &[String], at: Option<Span>) -> Vec<Diagnostic> {
+    let Some((part, piece)) = job.model.piece(name) else { return Vec::new() };
     let Some(body) = job.model.bodies.get(&Model::key(&part.body)) else { return Vec::new() };
-    let faults = hydro::piece_faults(&job.model, body, part, piece);
-    let diagnostics = faults.into_iter().map(|fault| {
-        let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
-        let diagnostic = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
-        *if at.is_some() { diagnostic.other(piece.span, "the piece") } else { diagnostic }
-    });
-    diagnostics.collect()
+    let is_later = |other: &str| later.iter().any(|name| name == other);
+    let faults = hydro::piece_overlaps(&job.model, body, part, piece, is_later);
+    faults.iter().map(|fault| piece_diagnostic(job, fault, piece, at)).collect()
+}
+
+fn piece_diagnostic(job: &Job, fault: &hydro::PieceFault, piece: &Piece, at: Option<Span>) -> Diagnostic {
+    let (text, span) = (fault.error.text(job.units), at.unwrap_or(piece.span));
+    let diagnostic = if fault.remark { Diagnostic::remark(text, span) } else { Diagnostic::warning(text, span) };
+    *if at.is_some() { diagnostic.other(piece.span, "the piece") } else { diagnostic }
 }

@@ -215,6 +215,17 @@ fn overlapping_pieces_are_located_and_nested_interior_is_allowed() {
 }
 
 #[test]
+fn pieces_of_surface_menu_are_compared_once_at_its_end() {
+    // a well that DIFFERENCE takes out, and three boxes of which each reaches into the next; the last is renamed
+    let records = "&DESCRIBE BODY B\n&SURFACE\nBLOCK HULL 0 -10 0 60 10 6\nBLOCK WELL 20 -5 -1 30 5 8\nDIFFERENCE HULL HULL WELL\n\
+                   BLOCK BOX 60 -10 0 80 10 6\nBLOCK OVER 70 -10 0 90 10 6\nBLOCK OLD 85 -3 0 95 3 6\nRENAME_BLOCK OLD FRESH\n";
+    let (_, said) = model(&format!("{records}END_&SURFACE\n"));
+    let pairs: Vec<&str> = said.iter().map(|text| text.split(" overlap at").next().unwrap_or_default()).collect();
+    assert!(pairs.len() == 2 && pairs[0].ends_with("pieces BOX and OVER"), "{pairs:?}");
+    assert!(pairs[1].ends_with("pieces OVER and FRESH"), "{pairs:?}");
+}
+
+#[test]
 fn conditions_of_several_bodies_keep_position_and_heading() {
     let (model, _) = model(
         "&DESCRIBE BODY A\n&DESCRIBE BODY B\n&INSTATE -LOCATE A 1 2 3 4 5 6 -LOCATE B 7 8 9 10 11 12\n\
