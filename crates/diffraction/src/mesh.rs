@@ -168,6 +168,24 @@ impl HullMesh {
         self.hull().iter().flat_map(|panel| panel.corners()).map(|corner| corner.amax()).fold(0.0, f64::max)
     }
 
+    /// The distance to another hull (m) where it is less than `room`, both without their mirror images: from corners of each to panels of the other.
+    pub fn gap_within(&self, other: &HullMesh, room: f64) -> Option<f64> {
+        let least = self.gap_from_corners(other, room).min(other.gap_from_corners(self, room));
+        (least < room).then_some(least)
+    }
+
+    /// The least distance (m) of corners of its panels from those of another hull, of those that are within `room` of the box around the other.
+    fn gap_from_corners(&self, other: &HullMesh, room: f64) -> f64 {
+        let corners = || other.hull().iter().flat_map(|panel| panel.corners());
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let bounds = [0, 1, 2]
+            .map(|axis| corners().fold(none, |[low, high], at| [low.min(at[axis] - room), high.max(at[axis] + room)]));
+        let is_near =
+            |at: &&Vector3<f64>| bounds.iter().zip(at.iter()).all(|([low, high], x)| (*low..=*high).contains(x));
+        let near = self.hull().iter().flat_map(|panel| panel.corners()).filter(is_near);
+        near.flat_map(|at| other.hull().iter().map(move |panel| panel.distance(at))).fold(f64::INFINITY, f64::min)
+    }
+
     /// Its mirror planes.
     pub fn mirrors(&self) -> MirrorPlanes {
         self.mirrors

@@ -67,6 +67,11 @@ impl Panel {
         &self.rule
     }
 
+    /// The distance of a point (m).
+    pub(crate) fn distance(&self, at: &Vector3<f64>) -> f64 {
+        triangles(&self.corners).iter().map(|triangle| triangle_distance(triangle, at)).fold(f64::INFINITY, f64::min)
+    }
+
     /// `int dS/r` (m) and `int d(1/r)/dN dS` over the panel, seen from a point; N is its normal. The second is the solid angle, positive
     /// on the side of the normal and zero on the panel itself [HESS-SMITH-1967].
     pub fn rankine(&self, from: &Vector3<f64>) -> [f64; 2] {
@@ -126,6 +131,22 @@ impl Panel {
 /// The two triangles of a quadrilateral; the second has no area where the last two corners are one.
 fn triangles([a, b, c, d]: &[Vector3<f64>; 4]) -> [[Vector3<f64>; 3]; 2] {
     [[*a, *b, *c], [*a, *c, *d]]
+}
+
+/// The distance of a point from a triangle (m): along its normal above or below it, elsewhere from the nearest of its sides.
+fn triangle_distance(corners: &[Vector3<f64>; 3], at: &Vector3<f64>) -> f64 {
+    let sides = [(0, 1), (1, 2), (2, 0)].map(|(from, to)| (corners[from], corners[to] - corners[from]));
+    let normal = sides[0].1.cross(&sides[1].1).try_normalize(0.0);
+    let is_inside =
+        |normal: &Vector3<f64>| sides.iter().all(|(from, side)| normal.cross(side).dot(&(at - from)) >= 0.0);
+    if let Some(normal) = normal.filter(is_inside) {
+        return (at - corners[0]).dot(&normal).abs();
+    }
+    let from_side = |(from, side): &(Vector3<f64>, Vector3<f64>)| {
+        let along = (at - from).dot(side) / side.norm_squared().max(f64::MIN_POSITIVE);
+        (at - from - side * along.clamp(0.0, 1.0)).norm()
+    };
+    sides.iter().map(from_side).fold(f64::INFINITY, f64::min)
 }
 
 /// Gauss's points of the bilinear map, with areas that add up to that of the panel.
@@ -223,6 +244,15 @@ mod tests {
         let [potential, angle] = square().rankine(&Vector3::zeros());
         assert!((potential - 4.0 * (1.0 + SQRT_2).ln()).abs() < 1e-14, "{potential}");
         assert_eq!(angle, 0.0);
+    }
+
+    #[test]
+    fn distance_from_square_is_along_normal_beside_side_or_corner() {
+        let square = square();
+        for (at, distance) in [([0.2, -0.3, 0.7], 0.7), ([0.8, 0.1, 0.4], 0.5), ([0.9, -0.8, 1.2], 1.3)] {
+            let found = square.distance(&Vector3::from(at));
+            assert!((found - distance).abs() < 1e-14, "{at:?}: {found}");
+        }
     }
 
     #[test]

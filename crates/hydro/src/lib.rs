@@ -40,6 +40,7 @@ pub mod pieces;
 pub mod plate;
 pub mod pressure;
 pub mod ramp;
+mod rectangles;
 pub mod roll_damping;
 pub mod sea;
 mod sharp_edges;

@@ -95,6 +95,8 @@ fn triangle(
     sizes: PanelSizes,
     made: &mut Vec<[Vector3<f64>; 4]>,
 ) {
+    // parts of a triangle shrink in both directions: as many as a quadrilateral has, which shrinks in one, leave the root of the share
+    let sizes = PanelSizes { edge_share: sizes.edge_share.sqrt(), ..sizes };
     let largest = |[a, b, c]: &[Vector3<f64>; 3]| (a - b).norm().max((b - c).norm()).max((c - a).norm());
     let is_one = largest(&corners) <= sizes.largest * std::f64::consts::SQRT_2;
     let mut open = vec![corners];

@@ -1,8 +1,9 @@
 //! Panels of the wetted hull of a body where it stands, for radiation and diffraction of waves.
 
 use crate::buoyancy::skin;
-use crate::hull::{Combination, Surface, pair_triangles};
+use crate::hull::{Combination, Surface};
 use crate::panel_cells::cells;
+use crate::rectangles;
 use crate::sharp_edges::{edge_at, sharp_edges};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use windlass_base::pose::Pose;
@@ -143,11 +144,7 @@ impl WettedHull {
 
     /// That of a closed surface in body axes, in a pose with a heading (rad).
     fn of_surface(surface: &Surface, pose: &Pose, heading: f64, level: f64) -> Self {
-        let corner = |n: &u32| surface.vertices.get(*n as usize).copied();
-        let (parallelograms, triangles) = pair_triangles(surface);
-        let faces = parallelograms.iter().map(|f| f.iter().filter_map(corner).collect::<Polygon>());
-        let polygons = faces.chain(triangles.iter().map(|f| f.iter().filter_map(corner).collect())).collect();
-        FacedHull { polygons, has_own_panels: false }.placed(pose, heading, level)
+        FacedHull { polygons: rectangles::faces(surface), has_own_panels: false }.placed(pose, heading, level)
     }
 
     /// The panels of a closed piece as they are, in body axes, all of them turned where they look inward.
@@ -283,7 +280,7 @@ fn is_of_hull(piece: &Piece) -> bool {
     let meshed = match piece.waves {
         WaveAction::Database => true,
         WaveAction::ByForm => piece.member.is_none(),
-        WaveAction::Pressure => false,
+        WaveAction::Pressure | WaveAction::Nothing => false,
     };
     meshed && piece.permeability != 0.0 && piece.compartment.is_none()
 }

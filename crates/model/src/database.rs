@@ -223,36 +223,44 @@ impl Model {
         list
     }
 
-    /// What is to be said of the interactions of the database of a body: other bodies of its source that the model has not, or that stand
-    /// elsewhere.
-    fn interaction_caveats(&self, body: &Body, data: &Database) -> Vec<String> {
-        let mut list = Vec::new();
+    /// The bodies of the source of a body's database that the model has not, where it lacks some.
+    fn missing_partners(&self, body: &Body, data: &Database) -> Option<String> {
         let found: Vec<_> = self.interactions().into_iter().filter(|pair| pair.on.1.name == body.name).collect();
         let missing =
             data.interactions.iter().filter(|own| !found.iter().any(|pair| pair.interaction.index == own.index));
         let count = missing.count();
-        if count > 0 {
-            list.push(format!(
+        (count > 0).then(|| {
+            format!(
                 "{} of {} bodies that {} was computed with have no database of it: their waves do not act on {}",
                 count,
                 data.interactions.len(),
                 data.source,
                 body.name
-            ));
-        }
-        for pair in found {
+            )
+        })
+    }
+
+    /// Bodies that stand elsewhere beside another than where their waves were computed, each pair once.
+    fn partners_elsewhere(&self) -> Vec<String> {
+        let mut list = Vec::new();
+        let mut told: Vec<[&str; 2]> = Vec::new();
+        for pair in self.interactions() {
             let Some([x, y, turn]) = pair.interaction.place else { continue };
-            let (own, other) = (&body.position, &pair.by.1.position);
+            let (body, partner) = (pair.on.1, pair.by.1);
+            let Some(data) = body.database.as_ref().map(|attached| attached.data.as_ref()) else { continue };
+            let (own, other) = (&body.position, &partner.position);
             let (dx, dy) = (other.shift[0] - own.shift[0], other.shift[1] - own.shift[1]);
             let (sine, cosine) = own.turn[2].sin_cos();
             let (ahead, aside) = (dx * cosine + dy * sine, dy * cosine - dx * sine);
             let off = (ahead - x).hypot(aside - y);
             let angle = (other.turn[2] - own.turn[2] - turn + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU)
                 - std::f64::consts::PI;
-            if off > PLACE_SHARE * x.hypot(y) || angle.abs() > PLACE_ANGLE {
+            let is_told = told.contains(&[partner.name.as_str(), body.name.as_str()]);
+            if !is_told && (off > PLACE_SHARE * x.hypot(y) || angle.abs() > PLACE_ANGLE) {
+                told.push([&body.name, &partner.name]);
                 list.push(format!(
-                    "{} stands {off:.2} m and {:.1} degrees away from where {} had it beside {}",
-                    pair.by.1.name,
+                    "{} stands {off:.2} m and {:.1} degrees away from where {} had it beside {}: the waves that they send to each other are those of there",
+                    partner.name,
                     angle.abs().to_degrees(),
                     data.source,
                     body.name
@@ -262,9 +270,9 @@ impl Model {
         list
     }
 
-    /// How bodies that move differ from those that their databases were computed for.
+    /// How bodies that move differ from those that their databases were computed for, and where they stand beside each other.
     pub fn stance_warnings(&self) -> Vec<String> {
-        self.bodies.values().flat_map(|body| self.stance_warnings_of(body)).collect()
+        self.bodies.values().flat_map(|body| self.stance_warnings_of(body)).chain(self.partners_elsewhere()).collect()
     }
 
     /// How a body that moves differs from the one that its database was computed for: its mass, and how it floats.
@@ -348,7 +356,7 @@ impl Model {
                 depth(here)
             ));
         }
-        list.extend(self.interaction_caveats(body, data));
+        list.extend(self.missing_partners(body, data));
         list
     }
 }

@@ -133,6 +133,8 @@ pub enum WaveAction {
     Database,
     /// Pressure of the waves as they are without it, up to their surface (Froude and Krylov).
     Pressure,
+    /// Nothing, and it is no part of a hull that is meshed.
+    Nothing,
 }
 
 impl Shape {

@@ -26,6 +26,7 @@ use windlass_base::units::Dim;
 use windlass_base::values::{Args, Given, Noun, Value};
 use windlass_hydro::database::Amplitudes;
 use windlass_hydro::database::typed::{self, TypedAxes, TypedPeriod};
+use windlass_hydro::wetted_hull::has_hull;
 use windlass_language::spec::{CommandSpec, DatumKey, Kind, Opens, OptionSpec, ValueSpec};
 use windlass_model::{AttachedDatabase, Body, DriftMethod, Model, SolveKind, UnmodelledEffect, find};
 
@@ -61,7 +62,7 @@ pub static V_MDRIFT: Command = Command { spec: &DRIFT_SPEC, edits: false, run: s
 /// Most periods of a database [MOSES-REF pressure].
 const MAX_PERIODS: usize = 200;
 /// Panels at sharp edges over the others where nothing else is asked for: with it the damping of the roll of a barge is as near as with half the size everywhere.
-pub const USUAL_EDGE_SHARE: f64 = 0.25;
+pub const USUAL_EDGE_SHARE: f64 = 0.1;
 const LEAST_EDGE_SHARE: f64 = 0.02;
 
 /// Largest damping of a lid: the surface as good as closed.
@@ -122,7 +123,7 @@ pub const EDGE_SHARE: OptionSpec = OptionSpec::ours(
         .in_range(LEAST_EDGE_SHARE, 1.0)],
     "size of the panels at sharp edges and at the waterline, from where they grow by their distance",
 )
-.default("0.25; of own panels and of faces smaller than a panel 1");
+.default("0.1; of own panels and of faces smaller than a panel 1");
 const WATER_DEPTH: OptionSpec = OptionSpec::ours(
     "-DEPTH",
     &[ValueSpec::new("D", Kind::Number(Dim::Length), "depth").positive()],
@@ -190,7 +191,7 @@ static PRESSURE_SPEC: CommandSpec = CommandSpec {
     data: &[BODY, PACKET],
     options: &[HEADING, PERIOD, PANEL, EDGE_SHARE, WATER_DEPTH, WITH, LID, MEAN_DRIFT, CHECK, KEPT, MAX_DIST],
     detail: "Added mass, radiation damping and wave forces of first order of a body where it stands, by panels on its pieces below the water, which \
-             are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK, are left out; -DIFTYPE 3DDIF takes a tube). \
+             are made one hull (tubes and members by Morison's formula, and pieces of -DIFTYPE FK or NONE, are left out; -DIFTYPE 3DDIF takes a tube). \
              Mirror planes of a single hull are found and used. Panels are of the size of -PANEL at most; toward sharp edges that stick out and toward the waterline they shrink to -EDGE_SHARE \
              of it: a barge in panels of one size is twice as far off. The waterplane inside of each ring of the waterline is closed by a lid, which takes \
              irregular frequencies away; a moonpool stays open. -LID damps the surface of a rectangle of it, or of a gap between bodies, by dphi/dz = w2/g (1 + i EPSILON) phi: \
@@ -334,6 +335,9 @@ fn open(job: &mut Job, _: &Call) -> Outcome<Effect> {
     Ok(Effect::Done)
 }
 
+const HULL_HELP: &str = "BLOCK, PGEN or PANEL describes a hull (not with -DIFTYPE NONE or FK, nor a TUBE without -DIFTYPE 3DDIF); DATABASE reads those of WAMIT, NEMOH, \
+                         Capytaine and AQWA; I_TOTAL .. END_I_TOTAL gives one by records";
+
 /// The record that a body without a database lacks, as solves name it.
 fn pressure_record(body: &str) -> String {
     format!("G_PRESSURE of {body}")
@@ -353,7 +357,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     // what it has made itself it makes again
     let has_database =
         body.database.as_ref().is_some_and(|attached| !attached.data.source.starts_with(panel_forces::SOURCE));
-    let has_hull = windlass_hydro::wetted_hull::has_hull(&job.model, body);
+    let is_meshed = has_hull(&job.model, body);
     let mut names = vec![name.clone()];
     for value in args.option(&WITH).into_iter().flat_map(|given| &given.values) {
         let (word, place) = (value.word().unwrap_or_default(), args.option(&WITH).map_or(span, |given| given.span));
@@ -384,7 +388,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
         );
         return Ok(Effect::Done);
     }
-    if has_hull {
+    if is_meshed {
         if job.checking.is_some() {
             return Ok(Effect::Done);
         }
@@ -415,11 +419,7 @@ fn pressure(job: &mut Job, call: &Call) -> Outcome<Effect> {
     job.model.keep_unmodelled(effect);
     let said =
         Diagnostic::warning(format!("{name} has no hull for G_PRESSURE; motions stop until it has a database"), span);
-    job.notices.push(
-        *said.help(
-            "BLOCK, PGEN or PANEL describes a hull; DATABASE reads those of WAMIT, NEMOH, Capytaine and AQWA; I_TOTAL .. END_I_TOTAL gives one by records",
-        ),
-    );
+    job.notices.push(*said.help(HULL_HELP));
     Ok(Effect::Done)
 }
 
@@ -671,8 +671,9 @@ fn attach_total(job: &mut Job, data: &TotalData) -> Outcome<()> {
 fn find_database<'j>(job: &'j Job, args: &Args, key: DatumKey<str>) -> Outcome<(&'j Body, &'j AttachedDatabase)> {
     let body = find(&job.model.bodies, args.word(key).unwrap_or_default(), "body", args.position(key))?;
     let attached = body.database.as_ref().ok_or_else(|| {
-        Diagnostic::error(format!("{} has no database", body.name), args.position(key))
-            .help("DATABASE reads one, I_TOTAL .. END_I_TOTAL gives one by records")
+        Diagnostic::error(format!("{} has no database", body.name), args.position(key)).help(
+            "G_PRESSURE computes one of its hull, DATABASE reads one, I_TOTAL .. END_I_TOTAL gives one by records",
+        )
     })?;
     Ok((body, attached))
 }

@@ -322,9 +322,8 @@ static ROLL_DAMPING_SPEC: CommandSpec = CommandSpec {
     options: &[LINEAR_ROLL, QUADRATIC_ROLL, CRITICAL_ROLL, CATEGORY],
     detail: "Damping of the roll of the body about the x axis of the part described last: a moment B p against the rate of roll p, B |p| p, or both. -CRITICAL p is \
              linear with B = 2 p/100 sqrt((I + A) C): I the moment of inertia and A the added mass at the natural period of roll, of the database and of #AMASS, C the \
-             hydrostatic stiffness of the body alone, all about its center of gravity, where a run begins; moorings and the coupling to sway are left out. Drift by \
-             G_PRESSURE takes A of the database that the body had before. Linear damping acts in TDOM and the frequency domain; quadratic in TDOM and, linearised in \
-             the sea, in SRESPONSE, not in RAO.",
+             hydrostatic stiffness of the body alone, all about its center of gravity, where a run begins; moorings and the coupling to sway are left out. Linear damping acts in TDOM and the \
+             frequency domain; quadratic in TDOM and, linearised in the sea, in SRESPONSE, not in RAO.",
     example: "&DIMEN -DIMEN METERS KN\nMEDIT\n&DESCRIBE BODY B\n*G 0 0 0\n#WEIGHT *G 19293 4 11 11\nPGEN\nPLANE -20 20 -RECT -4 2 12\nEND\n\
               #ROLL_DAMPING -CRITICAL 5 -QUADRATIC 1E5\nEND\n&STATUS LOADS",
     ..CommandSpec::new("#ROLL_DAMPING", "damping of roll: linear, quadratic, per cent of critical")

@@ -154,6 +154,20 @@ impl MeshedBodies {
         }
     }
 
+    /// Pairs of bodies nearer to each other than half a panel, with the distance (m).
+    fn narrow_gaps(&self) -> Vec<(&str, &str, f64)> {
+        let room = LEAST_GAP_OF_PANEL * self.size;
+        let bodies: Vec<_> = self.bodies.iter().zip(&self.parts).collect();
+        let mut found = Vec::new();
+        for (index, (body, part)) in bodies.iter().enumerate() {
+            for (other, beside) in bodies.iter().skip(index + 1) {
+                let gap = part.mesh.gap_within(&beside.mesh, room);
+                found.extend(gap.map(|gap| (body.name.as_str(), other.name.as_str(), gap)));
+            }
+        }
+        found
+    }
+
     /// Meshes bodies where they stand.
     ///
     /// # Errors
@@ -996,6 +1010,14 @@ fn warn_of_quality(job: &mut Job, meshed: &MeshedBodies, quality: &Quality, span
             );
             job.warn(text, span);
         }
+    }
+    for (one, other, gap) in meshed.narrow_gaps() {
+        let text = format!(
+            "the gap between {one} and {other} is {gap:.2} m, less than half a panel of {:.2} m: the water between needs smaller panels, -PANEL {:.2} at most",
+            meshed.size,
+            gap / LEAST_GAP_OF_PANEL
+        );
+        job.warn(text, span);
     }
     for body in meshed.bodies.iter().filter(|body| !body.has_lid) {
         let text =

@@ -62,7 +62,7 @@ choices! {
         Database = "3DDIF",
         /// Strip theory.
         Strip = "STRIP",
-        /// What its form says.
+        /// A tube is a member; another piece feels nothing, and `G_PRESSURE` leaves it out.
         None = "NONE",
         /// Pressure of the waves as they are without it.
         FroudeKrylov = "FK",
@@ -73,11 +73,11 @@ const DIFTYPE: OptionSpec = OptionSpec::new(
         "-DIFTYPE",
         &[ValueSpec::choice::<DiffractionType>(
             "TYPE",
-            "3DDIF: in the hull of a hydrodynamic database; STRIP: by strip theory, which is not computed; NONE: as its form says; FK (ours): the pressure of waves it does not change",
+            "3DDIF: in the hull of a hydrodynamic database; STRIP: by strip theory, which is not computed; NONE: nothing, not by G_PRESSURE either, but a TUBE is a member; FK (ours): the pressure of waves it does not change",
         )],
         "what waves do to it",
     )
-    .default("NONE: a TUBE is a member, any other piece feels no waves");
+    .default("a TUBE is a member; any other piece feels no waves until G_PRESSURE takes it into its hull");
 const CS_VELOCITY: OptionSpec = OptionSpec::new(
     "-CS_VELOCITY",
     &[ValueSpec::new("NAME", Kind::Name(Noun::Curve), "curve of factors by velocity")],
@@ -352,10 +352,13 @@ pub fn begin_piece(job: &mut Job, args: &Args, name: &str, span: Span, shape: Sh
         .then(|| member::coefficients(args, permeability, &job.model.parameters))
         .transpose()?;
     let category = member.is_some().then(|| weight::category_of(args));
-    let waves = match chosen.unwrap_or(DiffractionType::None) {
-        DiffractionType::Database => WaveAction::Database,
-        DiffractionType::FroudeKrylov if member.is_none() => WaveAction::Pressure,
-        DiffractionType::FroudeKrylov | DiffractionType::Strip | DiffractionType::None => WaveAction::ByForm,
+    let waves = match chosen {
+        Some(DiffractionType::Database) => WaveAction::Database,
+        Some(DiffractionType::FroudeKrylov) if member.is_none() => WaveAction::Pressure,
+        Some(DiffractionType::None) if member.is_none() => WaveAction::Nothing,
+        Some(DiffractionType::FroudeKrylov | DiffractionType::Strip | DiffractionType::None) | None => {
+            WaveAction::ByForm
+        }
     };
     let usual = if permeability > 0.0 && !in_tank { [1.0; 3] } else { [0.0; 3] };
     let tube_wind =

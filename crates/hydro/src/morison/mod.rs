@@ -332,9 +332,15 @@ fn member_states(state: &[f64]) -> &[f64] {
     &state[SlowWrench::STATES..]
 }
 
-/// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part
-/// of a hydrodynamic database. An engine with waves warns of them.
+/// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part of a hydrodynamic database, in
+/// whose hull all pieces are that say nothing else where it has wave forces. An engine with waves warns of them.
 pub fn pieces_without_wave_load<'a>(model: &'a Model, body: &'a Body) -> impl Iterator<Item = &'a Piece> {
+    let has_forces = body.database.as_ref().is_some_and(|attached| !attached.data.excitation.is_empty());
+    let is_still = move |waves: WaveAction| match waves {
+        WaveAction::Nothing => true,
+        WaveAction::ByForm => !has_forces,
+        WaveAction::Database | WaveAction::Pressure => false,
+    };
     let pieces = model.parts_of(body).flat_map(|part| part.pieces.iter());
-    pieces.filter(|p| p.permeability != 0.0 && p.member.is_none() && p.waves == WaveAction::ByForm)
+    pieces.filter(move |p| p.permeability != 0.0 && p.member.is_none() && is_still(p.waves))
 }

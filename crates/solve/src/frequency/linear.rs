@@ -250,7 +250,7 @@ impl LinearSystem {
                 let feels = |piece: &Piece| match piece.waves {
                     WaveAction::Pressure => true,
                     WaveAction::ByForm => piece.member.is_some(),
-                    WaveAction::Database => false,
+                    WaveAction::Database | WaveAction::Nothing => false,
                 };
                 let lumps = |part: &Part| {
                     let own = |load: &&PartLoad| Model::key(&load.part) == Model::key(&part.name);
