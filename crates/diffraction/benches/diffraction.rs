@@ -1,5 +1,5 @@
 //! Radiation and diffraction of a hemisphere in deep water by 400, 1,600 and 6,400 panels: seconds per frequency with six motions and one
-//! heading, on one thread and on all; `-- N` takes the mesh of 4 N2 panels alone. `benches/diffraction.py` runs Capytaine on the same meshes.
+//! heading, on one thread and on all; `-- N` takes the mesh of 4 N2 panels alone, of any N. `benches/diffraction.py` runs Capytaine on the same meshes.
 
 #![allow(missing_docs, clippy::print_stdout)]
 
@@ -57,10 +57,12 @@ fn main() -> Result<(), Box<Error>> {
     let only = std::env::args().skip(1).find_map(|word| word.parse::<usize>().ok());
     // the table of the Green function is made once a process
     windlass_diffraction::green::WavePartTable::shared();
-    for (m, frequencies) in [(10, 20), (20, 20), (40, 3)] {
-        if only.is_some_and(|only| only != m) {
-            continue;
-        }
+    let usual = vec![(10, 20), (20, 20), (40, 3)];
+    let meshes = match only {
+        None => usual,
+        Some(m) => vec![usual.into_iter().find(|(own, _)| *own == m).unwrap_or((m, 2))],
+    };
+    for (m, frequencies) in meshes {
         for threads in [1, 2] {
             measure(m, frequencies, MirrorPlanes::default(), threads)?;
         }

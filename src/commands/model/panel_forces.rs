@@ -15,6 +15,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use sysinfo::{ProcessRefreshKind, ProcessesToUpdate, System};
 use windlass_base::choice::{Choice, Dof};
 use windlass_base::diagnostic::{Diagnostic, Outcome};
 use windlass_base::span::Span;
@@ -595,13 +596,15 @@ fn gigabytes(bytes: f64) -> String {
     if bytes < 1e8 { format!("{:.2} MB", bytes * 1e-6) } else { format!("{:.2} GB", bytes * 1e-9) }
 }
 
-/// Bytes of memory that programs may take.
+/// Bytes of memory that this program may take: what is free, and what the limits of its job or container leave.
 fn available_memory() -> u64 {
-    let kilobytes = |text: String| {
-        let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
-        line.split_whitespace().next()?.parse::<u64>().ok()
-    };
-    std::fs::read_to_string("/proc/meminfo").ok().and_then(kilobytes).map_or(USUAL_MEMORY, |kilobytes| kilobytes << 10)
+    let Ok(mut system) = System::new() else { return USUAL_MEMORY };
+    system.refresh_memory();
+    let free = Some(system.available_memory()).filter(|bytes| *bytes > 0).unwrap_or(USUAL_MEMORY);
+    let Ok(own) = sysinfo::get_current_pid() else { return free };
+    system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), true, ProcessRefreshKind::nothing());
+    let limits = system.process(own).and_then(sysinfo::Process::cgroup_limits);
+    limits.map_or(free, |limits| free.min(limits.free_memory))
 }
 
 /// The frequencies (rad/s), growing: those asked for, or what the panels carry of the usual ones.

@@ -137,6 +137,36 @@ fn two_cylinders_shelter_each_other_as_exact_series() {
 }
 
 #[test]
+fn four_cylinders_in_square_meet_exact_series() {
+    // 10 x 40 panels each, at (-2, -2), (-2, 2), (2, -2) and (2, 2); 0.5 % of the largest force (0.73 % in waves of four radii, k = 1.5)
+    let cylinder = CylinderMesh { draught: 2.0, rows: 10, rings: 0, turns: 10 };
+    let body = |x: f64, y: f64| {
+        let quads: Vec<_> =
+            cylinder.quads(4, x).iter().map(|quad| quad.map(|at| at + Vector3::new(0.0, y, 0.0))).collect();
+        DiffractionBody {
+            mesh: HullMesh::new(&quads, MirrorPlanes::default()).unwrap(),
+            origin: Vector3::new(x, y, 0.0),
+        }
+    };
+    let water = Water { density: 1000.0, gravity: 9.81, depth: Some(2.0) };
+    let bodies = [body(-2.0, -2.0), body(-2.0, 2.0), body(2.0, -2.0), body(2.0, 2.0)];
+    let problem = DiffractionProblem::new(&bodies, water).unwrap();
+    for n in rows(include_str!("../data/four_cylinders.csv")).iter().filter(|n| n[0] <= 1.0) {
+        let nu = n[0] * (2.0 * n[0]).tanh();
+        let found = problem.solve((nu * 9.81).sqrt(), &[n[1].to_radians()]).unwrap();
+        let exact: Vec<_> = n[2..].chunks(2).map(|pair| Complex::new(pair[0], pair[1])).collect();
+        let largest = exact.iter().fold(0.0, |most: f64, x| most.max(x.norm()));
+        for (mode, exact) in [0, 1, 6, 7, 12, 13, 18, 19].into_iter().zip(exact) {
+            for forces in [&found.pressure_excitation, &found.excitation] {
+                let made = forces[0][mode] / 9810.0;
+                let off = (made - exact).norm() / largest;
+                assert!(off < 0.005, "k {}, {} deg, mode {mode}: {made} for {exact}, {off}", n[0], n[1]);
+            }
+        }
+    }
+}
+
+#[test]
 fn drift_of_each_of_two_cylinders_meets_exact_series() {
     // the pressure on each by the series of Linton and Evans, here the momentum through a box around each; 1.5 % of the largest force
     let cylinder = CylinderMesh { draught: 2.0, rows: 8, rings: 0, turns: 8 };

@@ -65,9 +65,9 @@ pub fn problem(m: usize, mirrors: MirrorPlanes) -> DiffractionProblem {
     DiffractionProblem::new(&[body], WATER).unwrap()
 }
 
-/// Errors of A and B as shares of the displaced mass, of X by pressure and by Haskind as shares of |X|: the largest each.
-fn largest_errors(problem: &DiffractionProblem, most_k: f64) -> [f64; 3] {
-    let mut worst = [0.0_f64; 3];
+/// Errors of A and B as shares of the displaced mass, of X by pressure and by Haskind as shares of |X|, and of the phase of either (degrees): the largest each.
+fn largest_errors(problem: &DiffractionProblem, most_k: f64) -> [f64; 4] {
+    let mut worst = [0.0_f64; 4];
     for row in exact().iter().filter(|row| row.k <= most_k) {
         let found = solve(problem, row.k);
         for (a, b) in without_unit(&found).iter().zip(row.matrices) {
@@ -77,6 +77,7 @@ fn largest_errors(problem: &DiffractionProblem, most_k: f64) -> [f64; 3] {
             for (i, made) in [found.pressure_excitation[0][mode], found.excitation[0][mode]].into_iter().enumerate() {
                 let made = made / (WATER.density * WATER.gravity);
                 worst[1 + i] = worst[1 + i].max((made - force).norm() / force.norm());
+                worst[3] = worst[3].max((made / force).arg().abs().to_degrees());
             }
         }
     }
@@ -86,16 +87,18 @@ fn largest_errors(problem: &DiffractionProblem, most_k: f64) -> [f64; 3] {
 #[test]
 fn hemisphere_of_1600_panels_meets_exact_series() {
     // 0.3 % of the displaced mass, 0.5 % of the forces
-    let [matrices, pressure, haskind] = largest_errors(&problem(20, QUARTER), 2.0);
-    assert!(matrices < 0.003 && pressure < 0.005 && haskind < 0.005, "{matrices} {pressure} {haskind}");
+    let [matrices, pressure, haskind, phase] = largest_errors(&problem(20, QUARTER), 2.0);
+    let said = format!("{matrices} {pressure} {haskind} {phase}");
+    assert!(matrices < 0.003 && pressure < 0.005 && haskind < 0.005 && phase < 0.5, "{said}");
 }
 
 #[test]
 fn hemisphere_of_400_panels_meets_exact_series() {
     // at K = 0.1 A33 is 0.45 % of the displaced mass too small and X1 by Haskind's relation 0.8 %; the panels lie inside of the sphere and
     // enclose 0.8 % less than it. Corners further out, so that they enclose as much, turn the signs: A33 is then 0.43 % too large
-    let [matrices, pressure, haskind] = largest_errors(&problem(10, QUARTER), 1.0);
-    assert!(matrices < 0.0045 && pressure < 0.007 && haskind < 0.0085, "{matrices} {pressure} {haskind}");
+    let [matrices, pressure, haskind, phase] = largest_errors(&problem(10, QUARTER), 1.0);
+    let said = format!("{matrices} {pressure} {haskind} {phase}");
+    assert!(matrices < 0.0045 && pressure < 0.007 && haskind < 0.0085 && phase < 0.5, "{said}");
 }
 
 #[test]

@@ -6,4 +6,5 @@ mod cylinder;
 mod drift;
 mod green_function;
 mod hemisphere;
+mod submerged_sphere;
 mod two_boxes;

@@ -34,6 +34,46 @@ fn box_panels([nx, ny, nz]: [usize; 3], corner: impl Fn([usize; 3]) -> Vector3<f
     quads
 }
 
+#[test]
+fn roll_of_box_converges_over_three_meshes_as_by_capytaine() {
+    // each on the same mesh, 1 % of the peak, of the coarse one 1.5 % (Capytaine takes the wave part at one point of a panel, also near the image of another); and what is left falls between the first order and the second of the size, which are the steps from mesh to mesh over each other:
+    // (1 - 1/2)/(1/2 - 1/3) = 3 and (1 - 1/4)/(1/4 - 1/9) = 5.4
+    let rows: Vec<Vec<f64>> = include_str!("../data/box_roll.csv")
+        .lines()
+        .skip(2)
+        .map(|line| line.split(',').map(|word| word.parse().unwrap()).collect())
+        .collect();
+    let water = Water { density: 1025.0, ..WATER };
+    let problems = [1, 2, 3].map(|n| {
+        let counts = [12 * n, 6 * n, 5 * n];
+        let spread = |i: usize, n: usize| 0.5 * (1.0 - (PI * i as f64 / n as f64).cos());
+        let at = |[i, j, k]: [usize; 3]| {
+            let (x, y) = (spread(i, counts[0]) - 0.5, spread(j, counts[1]) - 0.5);
+            Vector3::new(80.0 * x, 20.0 * y, -4.0 * spread(k, counts[2]))
+        };
+        let mesh = HullMesh::new(&box_panels(counts, at), MirrorPlanes::default()).unwrap();
+        DiffractionProblem::new(&[DiffractionBody { mesh, origin: Vector3::zeros() }], water).unwrap()
+    });
+    let peaks = [0, 1].map(|kind| rows.iter().map(|row| row[5 + kind]).fold(0.0, f64::max));
+    for row in rows.iter().filter(|row| [0.04, 0.08, 0.15].contains(&row[0])) {
+        let omega = (row[0] * water.gravity).sqrt();
+        let made: Vec<[f64; 2]> = problems
+            .iter()
+            .map(|problem| problem.solve(omega, &[]).unwrap())
+            .map(|found| [found.added_mass[(3, 3)], found.damping[(3, 3)]])
+            .collect();
+        for ((made, given), room) in made.iter().zip(row[1..].chunks(2)).zip([0.015, 0.01, 0.01]) {
+            for kind in [0, 1] {
+                let off = (made[kind] - given[kind]).abs() / peaks[kind];
+                assert!(off < room, "k {}: {made:?} for {given:?}", row[0]);
+            }
+        }
+        let steps = [made[1][1] - made[0][1], made[2][1] - made[1][1]];
+        let ratio = steps[0] / steps[1];
+        assert!((3.0..5.4).contains(&ratio), "k {}: {steps:?}, {ratio}", row[0]);
+    }
+}
+
 /// The same with so many panels along its length, width and height.
 fn box_of(counts: [usize; 3], y: f64) -> DiffractionBody {
     let spread = |i: usize, n: usize| 0.5 * (1.0 - (PI * i as f64 / n as f64).cos());
