@@ -1,5 +1,5 @@
 """Added mass, damping and wave forces of a sphere of radius 1 whose middle is DEPTH below the surface of deep water, by multipoles that meet the condition
-of the surface, expanded about the middle (Linton, Applied Ocean Research 13, 1991): time goes as exp(-i omega t), A and B over the displaced mass (and omega),
+of the surface, expanded about the middle (Linton, Ocean Engineering 18, 1991, with the depth infinite): time goes as exp(-i omega t), A and B over the displaced mass (and omega),
 X over rho g for waves along x. Writes submerged_sphere.csv. Needs numpy and scipy."""
 import csv
 import math

@@ -151,14 +151,18 @@ pub(super) fn gaps(headings: &[f64]) -> Option<String> {
     let (from, to) = headings.iter().copied().zip(next).max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))?;
     (to - from > super::interpolation::WIDEST_GAP).then(|| {
         let [from, to, gap] = [from, to, to - from].map(f64::to_degrees);
+        let back = |toward: f64| (toward + 180.0) % 360.0;
         if headings.len() == 1 {
             return format!(
-                "{HEADING_GAP_REMARK} all round: waves other than toward {from:.0} degrees in the body are refused"
+                "{HEADING_GAP_REMARK} all round: waves other than toward {from:.0} degrees in the body (from {:.0}) are refused",
+                back(from)
             );
         }
         format!(
-            "{HEADING_GAP_REMARK} of {gap:.0} degrees: waves toward {from:.0} to {:.0} in the body are refused",
-            to % 360.0
+            "{HEADING_GAP_REMARK} of {gap:.0} degrees: waves toward {from:.0} to {:.0} in the body (from {:.0} to {:.0}) are refused",
+            to % 360.0,
+            back(from),
+            back(to)
         )
     })
 }

@@ -2,7 +2,7 @@
 
 use crate::sea::dispersion::wave_number;
 use nalgebra::{Complex, Matrix6, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use windlass_model::{Amplitudes, ClassError, Database, DriftTable};
 
 /// The widest gap between two headings that is interpolated over (rad): 90 degrees, and a little for rounding.
@@ -58,13 +58,13 @@ pub(super) fn bracket_heading(headings: &[f64], heading: f64) -> Result<Bracket,
         }
     }
     if gap > WIDEST_GAP {
-        let [turn, a, b] = [turn, a, b].map(rounded_degrees);
+        let [from, turn, a, b] = [turn + PI, turn, a, b].map(rounded_degrees);
         let why = if count == 1 {
             format!("it has those toward {a} degrees alone")
         } else {
             format!("its headings leave a gap from {a} to {b}")
         };
-        let text = format!("the database has no waves toward {turn} degrees in the body: {why}");
+        let text = format!("the database has no waves toward {turn} degrees in the body (from {from}): {why}");
         return Err(ClassError::new(text).help("compute the database for headings all round, 90 degrees apart at most"));
     }
     Ok((low, high, from / gap))
