@@ -568,7 +568,7 @@ fn motions_of_two_barges(last: f64, step: f64) -> Vec<[Complex<f64>; 3]> {
     let period = TAU / 0.8;
     let count = (last / step).round() as u32;
     let frequencies: Vec<String> = (2..=count).map(|i| (TAU / (step * f64::from(i))).to_string()).collect();
-    let asked = format!("-PERIOD {} -PANEL 2.5 -MEAN_DRIFT NO", frequencies.join(" "));
+    let asked = format!("-PERIOD {} -PANEL 2.5 -EDGE_SHARE 0.25 -MEAN_DRIFT NO", frequencies.join(" "));
     let behind = format!("&ENV SEA -SEA REGULAR 240 0.2 {period} -TIME 260 0.1 -RAMP 60\nTDOM\n");
     let (session, text) = two_barges(0.0, &asked, &behind);
     let mut model = session.job.model.clone();
@@ -618,17 +618,17 @@ fn two_barges_whose_frequencies_end_early_move_in_time_as_in_frequency() {
 
 #[test]
 fn file_of_panels_is_taken_again_and_reads_back_the_same() {
-    let pressure = "HYDRODYNAMICS\nG_PRESSURE A -WITH B -PERIOD 8 10 -HEADING 180 240 -PANEL 4\nEND\n";
+    let pressure = "HYDRODYNAMICS\nG_PRESSURE A -WITH B -PERIOD 8 10 -HEADING 180 240 -PANEL 4 -EDGE_SHARE 0.5\nEND\n";
     let read = "MEDIT\nDATABASE A -CAPYTAINE A_B.nc -INDEX 1\nDATABASE B -CAPYTAINE A_B.nc -INDEX 2\nEND\n";
     let data = |session: &windlass::session::Session| {
         ["A", "B"].map(|name| (*session.job.model.bodies[name].database.as_ref().unwrap().data).clone())
     };
-    let (first, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4", "");
+    let (first, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4 -EDGE_SHARE 0.5", "");
     assert!(text.contains("wrote ") && text.contains("A_B.nc"), "{text}");
-    let (again, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4", pressure);
+    let (again, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4 -EDGE_SHARE 0.5", pressure);
     assert!(text.contains("A_B.nc: of the same mesh and settings"), "{text}");
     assert_eq!(data(&first), data(&again));
-    let (other, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4", read);
+    let (other, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4 -EDGE_SHARE 0.5", read);
     let plain = |data: [Database; 2]| {
         data.map(|own| Database { source: String::new(), panels: None, remarks: Vec::new(), ..own })
     };
@@ -639,7 +639,7 @@ fn file_of_panels_is_taken_again_and_reads_back_the_same() {
     assert!(wanted.iter().all(|h| second.headings.iter().any(|own| (own - h).abs() < 1e-9)), "{:?}", second.headings);
     // another period is another problem
     let other = pressure.replace("8 10", "8 11");
-    let (_, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4", &other);
+    let (_, text) = two_barges(35.0, "-PERIOD 8 10 -HEADING 180 240 -PANEL 4 -EDGE_SHARE 0.5", &other);
     assert!(!text.contains("of the same mesh and settings"), "{text}");
 }
 
@@ -934,7 +934,7 @@ fn lid_between_barges_lowers_water_of_gap_and_is_kept_with_results() {
 
 #[test]
 fn bodies_that_cannot_be_solved_together_are_refused() {
-    let asked = "-PERIOD 8 10 -HEADING 180 -PANEL 4";
+    let asked = "-PERIOD 8 10 -HEADING 180 -PANEL 4 -EDGE_SHARE 0.5";
     let (session, text) =
         two_barges(0.0, asked, "&INSTATE -LOCATE B 305 -65\nHYDRODYNAMICS\nG_PRESSURE B -WITH A\nEND\n");
     assert!(text.contains("body 1 reaches into body 2") && text.contains("1 is B, 2 is A"), "{text}");
@@ -945,7 +945,7 @@ fn bodies_that_cannot_be_solved_together_are_refused() {
     // moved away from where they were solved
     let (_, text) = two_barges(
         0.0,
-        "-PERIOD 8 10 -PANEL 4",
+        "-PERIOD 8 10 -PANEL 4 -EDGE_SHARE 0.5",
         "&INSTATE -LOCATE B 345 -30\nFREQ_RESPONSE\nRAO -HEADING 180 -PERIOD 8 10\nMOTION A\nREPORT\nEND\nEND\n",
     );
     assert!(text.contains("away from where G_PRESSURE of A and B had it beside A"), "{text}");
