@@ -604,7 +604,8 @@ fn available_memory() -> u64 {
     let Ok(own) = sysinfo::get_current_pid() else { return free };
     system.refresh_processes_specifics(ProcessesToUpdate::Some(&[own]), true, ProcessRefreshKind::nothing());
     let limits = system.process(own).and_then(sysinfo::Process::cgroup_limits);
-    limits.map_or(free, |limits| free.min(limits.free_memory))
+    // what files have left in memory is given back
+    limits.map_or(free, |limits| free.min(limits.total_memory.saturating_sub(limits.rss)))
 }
 
 /// The frequencies (rad/s), growing: those asked for, or what the panels carry of the usual ones.

@@ -215,6 +215,17 @@ fn overlapping_pieces_are_located_and_nested_interior_is_allowed() {
 }
 
 #[test]
+fn pieces_that_no_waves_move_are_those_of_diftype_none_and_hulls_without_database() {
+    let (model, _) = model(
+        "&DESCRIBE BODY B\n&SURFACE\nBLOCK PLAIN 0 0 0 9 9 9\nBLOCK PRESSED 10 0 0 19 9 9 -DIFTYPE FK\nBLOCK NONE 20 0 0 29 9 9 -DIFTYPE NONE\n\
+         BLOCK HELD 30 0 0 39 9 9 -DIFTYPE 3DDIF\nBLOCK THIN 40 0 0 49 9 9 -PERM 0\nEND_&SURFACE\nMEDIT\n&DESCRIBE COMPARTMENT T\n\
+         &DESCRIBE PIECE TANK -DIFTYPE NONE\nPANEL 1 1 1  1 2 1  2 1 1\nPANEL 1 1 1  2 1 1  1 1 2\nPANEL 1 1 1  1 1 2  1 2 1\nPANEL 2 1 1  1 2 1  1 1 2\nEND\n",
+    );
+    let pieces = windlass_hydro::morison::pieces_without_wave_load(&model, &model.bodies[0]);
+    assert_eq!(pieces.map(|piece| piece.name.as_str()).collect::<Vec<_>>(), ["PLAIN", "NONE"]);
+}
+
+#[test]
 fn pieces_of_surface_menu_are_compared_once_at_its_end() {
     // a well that DIFFERENCE takes out, and three boxes of which each reaches into the next; the last is renamed
     let records = "&DESCRIBE BODY B\n&SURFACE\nBLOCK HULL 0 -10 0 60 10 6\nBLOCK WELL 20 -5 -1 30 5 8\nDIFFERENCE HULL HULL WELL\n\

@@ -36,7 +36,8 @@ fn box_panels([nx, ny, nz]: [usize; 3], corner: impl Fn([usize; 3]) -> Vector3<f
 
 #[test]
 fn roll_of_box_converges_over_three_meshes_as_by_capytaine() {
-    // each on the same mesh, 1 % of the peak, of the coarse one 1.5 % (Capytaine takes the wave part at one point of a panel, also near the image of another); and what is left falls between the first order and the second of the size, which are the steps from mesh to mesh over each other:
+    // each on the same mesh, 1 % of the peak, of the coarse one 1.5 % (Capytaine takes the wave part at one point of a panel, also near the image of another); and
+    // what is left falls between the first order and the second of the size, which are the steps from mesh to mesh over each other:
     // (1 - 1/2)/(1/2 - 1/3) = 3 and (1 - 1/4)/(1/4 - 1/9) = 5.4
     let rows: Vec<Vec<f64>> = include_str!("../data/box_roll.csv")
         .lines()

@@ -333,7 +333,7 @@ fn member_states(state: &[f64]) -> &[f64] {
 }
 
 /// The pieces of a body that displace water, and that waves move by no pressure: neither members nor of `-DIFTYPE FK`, nor part of a hydrodynamic database, in
-/// whose hull all pieces are that say nothing else where it has wave forces. An engine with waves warns of them.
+/// whose hull all pieces are that say nothing else where it has wave forces; interiors of tanks are not among them. An engine with waves warns of them.
 pub fn pieces_without_wave_load<'a>(model: &'a Model, body: &'a Body) -> impl Iterator<Item = &'a Piece> {
     let has_forces = body.database.as_ref().is_some_and(|attached| !attached.data.excitation.is_empty());
     let is_still = move |waves: WaveAction| match waves {
@@ -342,5 +342,6 @@ pub fn pieces_without_wave_load<'a>(model: &'a Model, body: &'a Body) -> impl It
         WaveAction::Database | WaveAction::Pressure => false,
     };
     let pieces = model.parts_of(body).flat_map(|part| part.pieces.iter());
-    pieces.filter(move |p| p.permeability != 0.0 && p.member.is_none() && is_still(p.waves))
+    let displaces = |p: &Piece| p.permeability != 0.0 && p.compartment.is_none() && p.member.is_none();
+    pieces.filter(move |p| displaces(p) && is_still(p.waves))
 }
