@@ -608,14 +608,33 @@ fn available_memory() -> u64 {
     limits.map_or(free, |limits| free.min(limits.total_memory.saturating_sub(limits.rss)))
 }
 
+/// The frequencies (rad/s), growing, of panels small enough for them all.
+fn usual_frequencies() -> impl DoubleEndedIterator<Item = f64> {
+    let [first, step, last] = USUAL_FREQUENCIES;
+    let all = ((last - first) / step).round() as u32;
+    (0..=all).map(move |i| first + step * f64::from(i))
+}
+
+/// Which of the usual periods the panels of a problem do not carry, where there are some.
+fn left_out_periods(meshed: &MeshedBodies) -> Option<String> {
+    let (shortest, last) = (usual_frequencies().next_back()?, *meshed.frequencies.last()?);
+    (last < shortest).then(|| {
+        format!(
+            "{}: the usual periods below {:.2} s are left out, as their waves have less than {USUAL_PANELS_A_WAVE} panels; -PANEL {:.2} has all, down to {:.2} s, and -PERIOD asks for some",
+            meshed.names(),
+            TAU / last,
+            wave_length(shortest, meshed.water) / USUAL_PANELS_A_WAVE,
+            TAU / shortest
+        )
+    })
+}
+
 /// The frequencies (rad/s), growing: those asked for, or what the panels carry of the usual ones.
 fn choose_frequencies(names: &[String], request: &PanelRequest, size: f64, water: Water) -> Outcome<Vec<f64>> {
     let wrong = |text: String| Diagnostic::error(format!("{}: {text}", names.join(", ")), request.span);
     let wave = |frequency: f64| wave_length(frequency, water);
     let frequencies: Vec<f64> = if request.periods.is_empty() {
-        let [first, step, last] = USUAL_FREQUENCIES;
-        let all = ((last - first) / step).round() as usize;
-        (0..=all).map(|i| first + step * i as f64).filter(|w| wave(*w) >= USUAL_PANELS_A_WAVE * size).collect()
+        usual_frequencies().filter(|w| wave(*w) >= USUAL_PANELS_A_WAVE * size).collect()
     } else {
         let mut list: Vec<f64> = request.periods.iter().map(|period| TAU / period).collect();
         list.sort_by(f64::total_cmp);
@@ -649,6 +668,9 @@ pub fn compute(job: &mut Job, names: &[String], request: &PanelRequest) -> Outco
     let meshed = MeshedBodies::new(&job.model, names, request)?;
     let all = meshed.names();
     let wrong = |text: String| Diagnostic::error(format!("{all}: {text}"), span);
+    if let Some(text) = left_out_periods(&meshed).filter(|_| request.periods.is_empty()) {
+        job.remark(text, span);
+    }
     let mut drift = panel_drift::first_source(&job.model, &meshed, request.has_drift);
     let key = meshed.key(&request.headings, &drift);
     let file = format!("{}.nc", names.join("_"));

@@ -133,6 +133,18 @@ fn piece_of_diftype_none_is_no_part_of_the_hull() {
 }
 
 #[test]
+fn usual_periods_that_panels_do_not_carry_are_named() {
+    // 16 panels of 4 m are a wave of 64 m, of w2 = 2 pi g/64, w = 0.981: the last of every 0.05 rad/s is 0.95, 6.61 s. Of 2 rad/s the wave is 15.4 m
+    let (data, text) = database("0 0 0", BARGE, "-HEADING 180 -PANEL 4 -MEAN_DRIFT NO");
+    let last = data.unwrap_or_else(|| panic!("{text}")).frequencies.last().copied().unwrap();
+    assert!((last - 0.95).abs() < 1e-9, "{last}");
+    let said = "the usual periods below 6.61 s are left out, as their waves have less than 16 panels; -PANEL 0.96 has all, down to 3.14 s";
+    assert!(text.contains(said), "{text}");
+    let (_, text) = database("0 0 0", BARGE, "-HEADING 180 -PERIOD 8 10 -PANEL 4 -MEAN_DRIFT NO");
+    assert!(!text.contains("usual periods"), "{text}");
+}
+
+#[test]
 fn gap_narrower_than_half_a_panel_is_warned_of() {
     // sides of 12 m breadth 20 m apart, and 12.8 m apart
     let said = |between: f64, panel: f64| {
